@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -15,6 +16,7 @@
 #include "isoatlas/cut.h"
 #include "isoatlas/filter.h"
 #include "isoatlas/objects.h"
+#include "isoatlas/polarity.h"
 #include "isoatlas/samples_wanted.h"
 #include "isoatlas/simplify.h"
 #include "isoatlas/surface.h"
@@ -69,6 +71,9 @@ struct AtlasOptions {
     /// Limit of the memory of samples that no query needs at the moment; the least recently used ones are evicted first. 0: none, what was
     /// read stays. A query that alone needs more gets more until it is done.
     std::int64_t cache_bytes = 0;
+    /// Which objects: of high values (samples as they are), or of low ones (all samples, ranges, values and isovalues are those of the
+    /// negated volume, isoatlas/polarity.h). None: those of high values if it holds them, else those of low ones.
+    std::optional<Polarity> polarity{};
     /// Of Atlas::info(), in memory: what the queries return follows from them, as if the store had been built with them.
     Corrections corrections{};
 };
@@ -82,13 +87,14 @@ struct AtlasCutOptions {
 class Atlas {
 public:
     /// Cost: reads the table of contents and what there is about every brick. Throws Error: input (missing, not a store, damaged),
-    /// unsupported (a later version), usage (another spacing for a store of filtered samples).
+    /// unsupported (a later version, or it does not hold the polarity), usage (another spacing for a store of filtered samples).
     explicit Atlas(const std::string& path, const AtlasOptions& options = {});
     Atlas(Atlas&&) noexcept;
     Atlas& operator=(Atlas&&) noexcept;
     ~Atlas();
 
     [[nodiscard]] const VolumeInfo& info() const;
+    [[nodiscard]] PolarityChoice polarities() const;  ///< that it can be opened for; polarity_of(info()): for which it is
     [[nodiscard]] Interpolant interpolant() const;
     [[nodiscard]] double tunnel_height() const;         ///< of AnalysisOptions
     [[nodiscard]] std::array<double, 2> range() const;  ///< lowest and highest sample

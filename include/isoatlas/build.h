@@ -14,6 +14,7 @@
 
 #include "isoatlas/analysis.h"
 #include "isoatlas/context.h"
+#include "isoatlas/polarity.h"
 #include "isoatlas/volume.h"
 
 namespace isoatlas {
@@ -25,6 +26,9 @@ struct BuildOptions {
     /// Instead of analysis.tunnel_height: percent of the range of the samples that are analysed, filtered ones included; 0: off.
     double tunnel_height_percent = 0;
     double gaussian = 0;  ///< filters the samples first: sigma as of gaussian_filter(); 0: off
+    /// Objects of high or of low values (isoatlas/polarity.h), or both in one store, which holds the samples once. Cost of both: that of
+    /// two builds. low and both: missing samples of MissingPolicy::Action::below would be objects; above is for low.
+    PolarityChoice polarities = PolarityChoice::high;
     /// Bytes, 80 MiB or more; 0: half of what the machine or its control group has. The whole process stays within it, or within the sum of
     /// all budgets where other builds run at the same time (environment.h). Of no meaning in an environment with a budget, which holds.
     std::int64_t memory = 0;
@@ -70,7 +74,9 @@ struct BuildReport {
 BuildReport build_atlas(const std::string& path, VolumeReader& reader, const BuildOptions& options = {}, const Context& context = {});
 
 /// The same for a volume in memory, without a budget.
-BuildReport build_atlas(const std::string& path, const Volume& volume, const AnalysisOptions& options = {}, const Context& context = {});
+/// A volume of negated samples (isoatlas/polarity.h) gives the store of its objects of low values, of the samples that are not negated.
+BuildReport build_atlas(const std::string& path, const Volume& volume, const AnalysisOptions& options = {}, const Context& context = {},
+                        PolarityChoice polarities = PolarityChoice::high);
 
 class Atlas;
 

@@ -55,11 +55,12 @@ enum class Reason : std::uint16_t {
     missing_samples,         ///< NaN, infinite or no-data values; MissingPolicy says what to put in their place
     only_missing_samples,    ///< there are no others
     replacement_not_stored,  ///< MissingPolicy::value is not a value of the type of the samples
-    no_value_below,          ///< MissingPolicy::Action::below: the type has no value below the lowest sample, which is the value
-    unequal_spacing,         ///< the samples of a volume that is filtered are not equally spaced
+    no_value_below,  ///< MissingPolicy::Action::below (above): the type has no value below the lowest (above the highest) sample, the value
+    unequal_spacing,  ///< the samples of a volume that is filtered are not equally spaced
     not_a_store,
     unknown_store_version,
-    no_such_part,  ///< of a store: StoreDump::parts() lists them
+    no_such_part,         ///< of a store: StoreDump::parts() lists them
+    polarity_not_stored,  ///< BuildOptions::polarities; value: the polarity
 
     // Resources
     not_enough_memory,        ///< the system has no more

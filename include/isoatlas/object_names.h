@@ -1,5 +1,6 @@
 // Names that users give to objects and cavities of a volume. They lie in a file beside the store, STORE.names.json
-// (docs/schema/names.schema.json), and stay valid when the table of objects has other lines.
+// (docs/schema/names.schema.json), and stay valid when the table of objects has other lines. Names of objects of low values have a file of
+// their own.
 #pragma once
 
 #include <cstdint>
@@ -7,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "isoatlas/polarity.h"
 #include "isoatlas/volume.h"
 
 namespace isoatlas {
@@ -20,8 +22,9 @@ struct ObjectName {
     friend bool operator==(const ObjectName&, const ObjectName&) = default;
 };
 
-/// The file beside a store: STORE.names.json.
-[[nodiscard]] std::string object_names_path(const std::string& store);
+/// The file beside a store: STORE.names.json. Of low values: scan.low.atlas.names.json, beside scan.atlas as beside scan.low.atlas, which
+/// number the same objects.
+[[nodiscard]] std::string object_names_path(const std::string& store, Polarity polarity = Polarity::high);
 
 /// Empty when there is no such file. extent: of the volume. Throws Error: input (damaged, or of a volume of another extent).
 [[nodiscard]] std::vector<ObjectName> read_object_names(const std::string& path, const Extent& extent);

@@ -12,6 +12,16 @@
 
 namespace isoatlas {
 
+/// Where an object touches the border of the volume.
+struct BorderContact {
+    std::uint8_t sides = 0;  ///< bits 0 to 5: low x, high x, low y, high y, low z, high z (2D: the first four)
+    double part = -1;        ///< of the samples at the border that lie in it, 0 to 1; -1: not determined (objects of high values)
+    [[nodiscard]] bool is_known() const { return part >= 0; }
+    friend bool operator==(const BorderContact&, const BorderContact&) = default;
+};
+/// "-x +x -z": the sides; "": none.
+[[nodiscard]] std::string sides_text(const BorderContact& border);
+
 /// One entry of the table: a branch of the criticality tree and the isovalue that shows it best.
 struct ObjectEntry {
     std::int64_t id;                 ///< index of the highest voxel of the object at best_tau, for SurfaceOptions::objects
@@ -30,6 +40,7 @@ struct ObjectEntry {
     bool outline;                    ///< best_tau shows everything that is not background
     bool main_branch;                ///< of the object that exists at every isovalue
     std::string note;                ///< "largest", "outline", "inside 3", ...
+    BorderContact border{};          ///< at best_tau
 };
 
 /// Why an isovalue shows an object well (docs/theory/7-which-objects-matter.md#stable-isovalues). V(tau) is the object's volume.
@@ -86,7 +97,8 @@ struct RankOptions {
 [[nodiscard]] std::optional<RecommendedIsovalue> isovalue_of(const ObjectTable& table, const ObjectEntry& entry);
 
 inline constexpr double kBackgroundPart = 2.0 / 3;
-/// Is it background: an outline of more than that part of all voxels, nearly the box of the volume? Pictures omit it.
+/// Is it background, nearly the box of the volume: an outline of more than that part of all voxels, or, of low values, that many around
+/// everything, reaching all sides? Pictures omit it.
 [[nodiscard]] bool is_background(const ObjectEntry& entry, const Extent& extent);
 
 /// The first entries alone (0: all): what rank_objects() gives with that many at most.

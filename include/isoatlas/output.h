@@ -39,8 +39,8 @@ void write_labels(Sink& sink, const VolumeInfo& info, std::span<const std::uint3
 /// these voxels, with the same labels; empty: all. Throws Error{not_found} for a voxel in no object.
 [[nodiscard]] std::vector<std::uint32_t> object_labels(const Cut& cut, std::span<const std::int64_t> objects = {});
 
-/// Writes the samples of a volume: .nrrd (raw), .npy, .raw (name must carry dims and type, or a .json sidecar is written), .mha, .vti,
-/// .nii, .nii.gz, .tif.
+/// Writes the samples of a volume (negated ones, isoatlas/polarity.h, as they were before): .nrrd (raw), .npy, .raw (name must carry dims
+/// and type, or a .json sidecar is written), .mha, .vti, .nii, .nii.gz, .tif.
 void write_volume(const std::string& path, const Volume& volume);
 /// The same into a sink; of .raw the samples alone.
 void write_volume(Sink& sink, const Volume& volume);

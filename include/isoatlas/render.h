@@ -163,7 +163,8 @@ struct SliceContour {
 struct SliceOptions {
     int axis = 2;                 ///< 0..2: what the slice is perpendicular to
     std::int64_t index = 0;       ///< of the samples along that axis
-    double black = 0, white = 0;  ///< stored values of the darkest and the brightest grey; equal: lowest and highest sample
+    double black = 0, white = 0;  ///< stored values of the darkest and the brightest grey (negated samples: the other way round); equal:
+                                  ///< lowest and highest sample
     std::vector<SliceContour> contours{};
     std::int64_t side = 512;  ///< pixels of the longer side, 16 to 16384
 };

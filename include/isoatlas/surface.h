@@ -13,6 +13,7 @@
 
 #include "isoatlas/array.h"
 #include "isoatlas/cut.h"
+#include "isoatlas/polarity.h"
 #include "isoatlas/volume.h"
 
 namespace isoatlas {
@@ -34,6 +35,7 @@ struct Surface {
     Interpolant interpolant = Interpolant::trilinear;  ///< that extract() used; write_surface() records it in the file
     double tunnel_height = 0;                          ///< of ExtractOptions: difference of stored values; trilinear only
     double reported_tunnel_height = 0;                 ///< calibrated
+    Polarity polarity = Polarity::high;                ///< low: of objects of low values; the normals point to higher ones
 };
 
 /// closed: samples outside the volume are -infinity, caps close every surface. open: the caps are left off.

@@ -12,6 +12,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -59,13 +60,33 @@ struct Geometry {
 /// Physical volume of the box around one sample (area in 2D); for rectilinear grids that of the given voxel.
 [[nodiscard]] double voxel_measure(const Geometry& geometry, const Extent& extent, std::int64_t index);
 
-/// reported value = slope * stored value + intercept (NIfTI scl_slope, ...). Topology is computed on stored values.
+/// mirror - value, rounded to the least double that is not less. Applied twice to a double it gives the least one that the first result
+/// names: mirrored(m, a) <= b exactly when mirrored(m, b) <= a (docs/theory/9-low-values.md#numbers).
+[[nodiscard]] double mirrored(double mirror, double value);
+
+/// reported value = slope * value of the file + intercept (NIfTI scl_slope, ...). Topology is computed on stored values.
 struct Calibration {
     double slope = 1;
     double intercept = 0;
-    [[nodiscard]] bool is_identity() const { return slope == 1 && intercept == 0; }
-    [[nodiscard]] double reported(double stored) const { return is_identity() ? stored : slope * stored + intercept; }
-    [[nodiscard]] double stored(double reported) const { return is_identity() ? reported : (reported - intercept) / slope; }
+    /// Samples that were negated for objects of low values (isoatlas/polarity.h): stored value = mirror - value of the file; none: the
+    /// same.
+    std::optional<double> mirror{};
+    [[nodiscard]] bool is_linear_identity() const { return slope == 1 && intercept == 0; }
+    [[nodiscard]] bool is_identity() const { return is_linear_identity() && !mirror; }
+    /// The value of the file that a stored value stands for, and back.
+    [[nodiscard]] double of_file(double stored) const { return mirror ? mirrored(*mirror, stored) : stored; }
+    [[nodiscard]] double of_samples(double value) const { return mirror ? mirrored(*mirror, value) : value; }
+    [[nodiscard]] double reported(double stored) const {
+        return is_linear_identity() ? of_file(stored) : slope * of_file(stored) + intercept;
+    }
+    [[nodiscard]] double stored(double reported) const {
+        return of_samples(is_linear_identity() ? reported : (reported - intercept) / slope);
+    }
+    /// Two ends of an interval of stored values, ascending again.
+    [[nodiscard]] std::array<double, 2> reported_interval(double low, double high) const {
+        if (mirror) std::swap(low, high);
+        return {reported(low), reported(high)};
+    }
     /// Of the difference of two stored values, such as the height of a tunnel.
     [[nodiscard]] double reported_difference(double stored) const { return (slope < 0 ? -slope : slope) * stored; }
     bool operator==(const Calibration&) const = default;
@@ -131,7 +152,7 @@ struct OpenOptions {
 
 /// Policy for NaN and infinite samples (and, if given, a no-data value).
 struct MissingPolicy {
-    enum class Action : std::uint8_t { error, replace, below } action = Action::error;
+    enum class Action : std::uint8_t { error, replace, below, above } action = Action::error;
     double value = 0;               ///< for replace
     std::optional<double> no_data;  ///< samples equal to this count as missing too
 };

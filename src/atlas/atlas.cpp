@@ -17,6 +17,7 @@
 #include "census/level_census.h"
 #include "codec/checksum.h"
 #include "critical/bodies.h"
+#include "field/negate.h"
 #include "isoatlas/environment.h"
 #include "levelset/cut_level.h"
 #include "mesh/extract_level.h"
@@ -32,6 +33,11 @@ std::int64_t local_voxel(const StoredWindow& window, std::int64_t voxel) {
 
 std::int64_t whole_voxel(const StoredWindow& window, std::int64_t voxel) {
     return window.window.whole.index(window.info.extent.voxel(voxel) + window.window.origin);
+}
+
+Polarity polarity_to_open(const std::string& path, const AtlasOptions& options) {
+    if (options.polarity) return *options.polarity;
+    return Container(path).contents().polarities == PolarityChoice::low ? Polarity::low : Polarity::high;
 }
 
 /// Queries on the trees alone.
@@ -54,7 +60,7 @@ struct Atlas::Data {
     IoCounters reads;
 
     Data(const std::string& path, const AtlasOptions& options)
-        : store(path, options.corrections), samples(stored_samples(store, options.cache_bytes)) {}
+        : store(path, polarity_to_open(path, options), options.corrections), samples(stored_samples(store, options.cache_bytes)) {}
 
     [[nodiscard]] const Trees& trees_now() const {
         return *trees.get([this] { return std::make_unique<Trees>(analysis_of(store, {})); });
@@ -124,6 +130,7 @@ Atlas& Atlas::operator=(Atlas&&) noexcept = default;
 Atlas::~Atlas() = default;
 
 const VolumeInfo& Atlas::info() const { return data_->store.contents().volume; }
+PolarityChoice Atlas::polarities() const { return data_->store.contents().polarities; }
 Interpolant Atlas::interpolant() const { return data_->store.contents().parameters.interpolant; }
 double Atlas::tunnel_height() const { return data_->store.contents().parameters.tunnel_height; }
 
@@ -238,7 +245,11 @@ Volume Atlas::check(const Context& context) const {
     data_->store.check_all();
     data_->samples->check(context);
     Volume samples = volume(context);
-    if (checksum(samples.bytes) != data_->store.contents().parameters.samples_checksum) {
+    const bool is_low = polarity_of(samples.info) == Polarity::low;
+    if (is_low) negate_samples(samples.info.type, samples.bytes);
+    const bool is_right = checksum(samples.bytes) == data_->store.contents().parameters.samples_checksum;
+    if (is_low) negate_samples(samples.info.type, samples.bytes);
+    if (!is_right) {
         throw Error(ErrorKind::input, {.file = data_->store.path(),
                                        .where = "volume/data",
                                        .what = "the samples differ from those that the store was built from",

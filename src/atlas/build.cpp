@@ -17,6 +17,7 @@
 #include "census/level_census.h"
 #include "codec/checksum.h"
 #include "field/gaussian.h"
+#include "field/negate.h"
 #include "field/volume_view.h"
 #include "formats/volume/load_samples.h"
 #include "isoatlas/environment.h"
@@ -53,7 +54,7 @@ std::uint64_t checksum_of(std::span<const std::byte> samples) {
 
 /// fingerprint: of file and options. samples: checksum of those in the file; nullopt: equal to the analysed ones.
 Contents contents_of(const VolumeView& volume, const AnalysisOptions& options, Fingerprint fingerprint,
-                     std::optional<std::uint64_t> samples) {
+                     std::optional<std::uint64_t> samples, PolarityChoice polarities) {
     Contents contents;
     contents.volume = *volume.info;
     const std::size_t slash = volume.info->path.rfind('/');
@@ -63,6 +64,8 @@ Contents contents_of(const VolumeView& volume, const AnalysisOptions& options, F
     const std::uint64_t analysed = contents.parameters.samples_checksum;
     add_samples(fingerprint, samples.value_or(analysed), analysed);
     contents.fingerprint = std::move(fingerprint);
+    contents.polarities = polarities;
+    if (polarities != PolarityChoice::high) contents.version = kPolarityVersion;
     return contents;
 }
 
@@ -97,6 +100,24 @@ double range_of(const VolumeView& volume) {
     });
 }
 
+/// The samples of a build, negated or not, in place.
+class PolarSamples {
+public:
+    PolarSamples(VolumeInfo info, std::span<std::byte> samples) : info_(std::move(info)), samples_(samples) {}
+    /// Valid until the next call. Cost: a pass over the samples when they are of the other polarity.
+    [[nodiscard]] VolumeView as(Polarity polarity) {
+        if (polarity != polarity_of(info_)) {
+            negate_samples(info_.type, samples_);
+            info_ = negated(std::move(info_));
+        }
+        return {info_, samples_.data()};
+    }
+
+private:
+    VolumeInfo info_;
+    std::span<std::byte> samples_;
+};
+
 class Build {
 public:
     Build(const std::string& path, bool restart, const Context& context) : path_(path), folder_(path, restart), context_(context) {
@@ -112,34 +133,54 @@ public:
 
     [[nodiscard]] const std::string& scratch_folder() const { return folder_.path(); }
 
-    BuildReport run(const VolumeView& volume, const AnalysisOptions& options, const Contents& contents) {
-        std::optional<ContourArcs> arcs;
-        std::unique_ptr<Container> trees = finished(kTrees, contents);
-        if (trees) {
-            report_.resumed.emplace_back(kTrees);
-        } else {
-            arcs = compute_arcs(volume, options, shifted(context_, 1, volume.info->extent));
-            pack_store(folder_.file(kTrees), contents, tree_arrays(*arcs, *volume.info, context_.threads));
-            trees = std::make_unique<Container>(folder_.file(kTrees));
+    BuildReport run(PolarSamples& samples, const AnalysisOptions& options, const Contents& contents) {
+        std::vector<Part> parts;
+        for (const Polarity polarity : {Polarity::low, Polarity::high}) {  // the bricks that are packed are those of the file's samples
+            if (holds(contents.polarities, polarity)) parts.push_back(part_of(samples.as(polarity), options, contents));
         }
-        std::unique_ptr<Container> zones = finished(kZones, contents);
-        if (zones) {
-            report_.resumed.emplace_back(kZones);
-        } else {
-            if (!arcs) arcs = arcs_of(*trees, volume.bytes, context_);
-            const Context part = shifted(context_, 1, volume.info->extent);
-            const auto done = [this](double fraction) { report(context_, kBuildPhases["objects"], fraction); };
-            const std::unique_ptr<ZonePhase> made = zone_phase(std::move(*arcs), volume, context_, part, done);
-            pack_store(folder_.file(kZones), contents, made->arrays);
-            zones = std::make_unique<Container>(folder_.file(kZones));
-        }
-        arcs.reset();
-        trim_memory_pool();
-        pack(volume, contents, {trees.get(), zones.get()});
+        pack(samples.as(Polarity::high), contents, parts);
         return report_;
     }
 
 private:
+    /// What the store holds of one polarity.
+    struct Part {
+        Polarity polarity;
+        std::unique_ptr<Container> trees, zones;
+        std::unique_ptr<LevelCensus> census;
+        std::vector<PackedArray> places;  ///< low: of the extremes of bricks
+    };
+
+    [[nodiscard]] Part part_of(const VolumeView& volume, const AnalysisOptions& options, const Contents& contents) {
+        Part part{.polarity = polarity_of(*volume.info), .trees = {}, .zones = {}, .census = {}, .places = {}};
+        const std::string before = part.polarity == Polarity::low ? "low-" : "", trees = before + kTrees, zones = before + kZones;
+        std::optional<ContourArcs> arcs;
+        part.trees = finished(trees, contents);
+        if (part.trees) {
+            report_.resumed.emplace_back(trees);
+        } else {
+            arcs = compute_arcs(volume, options, shifted(context_, 1, volume.info->extent));
+            pack_store(folder_.file(trees), contents, tree_arrays(*arcs, *volume.info, context_.threads));
+            part.trees = std::make_unique<Container>(folder_.file(trees));
+        }
+        part.zones = finished(zones, contents);
+        if (part.zones) {
+            report_.resumed.emplace_back(zones);
+        } else {
+            if (!arcs) arcs = arcs_of(*part.trees, volume.bytes, context_);
+            const Context counting = shifted(context_, 1, volume.info->extent);
+            const auto done = [this](double fraction) { report(context_, kBuildPhases["objects"], fraction); };
+            const std::unique_ptr<ZonePhase> made = zone_phase(std::move(*arcs), volume, context_, counting, done);
+            pack_store(folder_.file(zones), contents, made->arrays);
+            part.zones = std::make_unique<Container>(folder_.file(zones));
+        }
+        arcs.reset();
+        trim_memory_pool();
+        part.census = std::make_unique<LevelCensus>(take_census(volume, context_));
+        if (part.polarity == Polarity::low) part.places = brick_place_arrays(volume, context_);
+        return part;
+    }
+
     /// Unused phases are reported; those with the same reason together.
     [[nodiscard]] std::unique_ptr<Container> finished(const std::string& phase, const Contents& contents) {
         std::string why_not;
@@ -154,13 +195,19 @@ private:
         return found;
     }
 
-    void pack(const VolumeView& volume, const Contents& contents, const std::vector<const Container*>& phases) {
+    void pack(const VolumeView& volume, const Contents& contents, const std::vector<Part>& parts) {
         std::vector<PackedArray> arrays = brick_arrays(volume, context_);
-        for (const Container* phase : phases) {
-            for (PackedArray& array : copied_arrays(*phase)) arrays.push_back(std::move(array));
+        for (const Part& part : parts) {
+            const auto add = [&](std::vector<PackedArray> more) {
+                for (PackedArray& array : more) {
+                    if (part.polarity == Polarity::low) array.name.insert(0, kLowGroup);
+                    arrays.push_back(std::move(array));
+                }
+            };
+            add(part.places);
+            for (const Container* phase : {part.trees.get(), part.zones.get()}) add(copied_arrays(*phase));
+            add(census_arrays(*part.census));
         }
-        const LevelCensus census = take_census(volume, context_);
-        for (PackedArray& array : census_arrays(census)) arrays.push_back(std::move(array));
         report_packing(arrays, context_);
         report_.bytes = pack_store(path_, contents, arrays);
         if (!folder_.remove()) report_.left_behind = folder_.path();
@@ -195,19 +242,29 @@ BuildReport build_atlas(const std::string& path, VolumeReader& reader, const Bui
     AnalysisOptions analysis = options.analysis;
     if (options.tunnel_height_percent > 0) analysis.tunnel_height = options.tunnel_height_percent / 100 * range_of(volume);
     Fingerprint fingerprint = header_fingerprint(reader.info(), options, analysis.tunnel_height);
-    Contents contents = contents_of(volume, analysis, std::move(fingerprint), summed.sum());
+    Contents contents = contents_of(volume, analysis, std::move(fingerprint), summed.sum(), options.polarities);
     contents.is_replaceable = options.is_replaceable;
-    return build.run(volume, analysis, contents);
+    PolarSamples both(info, samples);
+    return build.run(both, analysis, contents);
 }
 
-BuildReport build_atlas(const std::string& path, const Volume& volume, const AnalysisOptions& options, const Context& context) {
+BuildReport build_atlas(const std::string& path, const Volume& volume, const AnalysisOptions& options, const Context& context,
+                        PolarityChoice polarities) {
     const EnvironmentScope scope(context);
     ISOATLAS_CHECK(static_cast<std::int64_t>(volume.bytes.size() / size_of(volume.info.type)) == volume.info.extent.voxels());
+    const bool is_high = polarity_of(volume.info) == Polarity::high;
+    if (!is_high && polarities == PolarityChoice::high) polarities = PolarityChoice::low;
     BuildOptions asked;
     asked.analysis = options;
     asked.gaussian = volume.info.gaussian;
-    const Contents contents = contents_of(volume, options, header_fingerprint(volume.info, asked, options.tunnel_height), std::nullopt);
-    return Build(path, false, context).run(volume, options, contents);
+    asked.polarities = polarities;
+    Volume own;  // high values alone: nothing is negated, the volume is used as it is
+    if (polarities != PolarityChoice::high) own = is_high ? volume : negated(volume);
+    const Volume& file = polarities == PolarityChoice::high ? volume : own;
+    const Contents contents =
+        contents_of(file, options, header_fingerprint(file.info, asked, options.tunnel_height), std::nullopt, polarities);
+    PolarSamples both(file.info, {const_cast<std::byte*>(file.bytes.data()), file.bytes.size()});
+    return Build(path, false, context).run(both, options, contents);
 }
 
 }  // namespace isoatlas

@@ -12,6 +12,17 @@
 namespace isoatlas {
 namespace {
 
+constexpr const char* kPolarityMember = "polarity";
+
+/// A store of both polarities is one of either.
+void compare_polarities(Fingerprint& there, Fingerprint& here) {
+    const std::string *stored = there.find(kPolarityMember), *wanted = here.find(kPolarityMember);
+    const std::string high = name_of(PolarityChoice::high), of_wanted = wanted == nullptr ? high : *wanted;
+    const std::string of_stored = stored == nullptr ? high : *stored == name_of(PolarityChoice::both) ? of_wanted : *stored;
+    there.remove(kPolarityMember), here.remove(kPolarityMember);
+    there.add(kPolarityMember, of_stored), here.add(kPolarityMember, of_wanted);
+}
+
 std::string size_text(const Extent& extent) {
     std::string text = std::to_string(extent.size[0]) + " x " + std::to_string(extent.size[1]);
     return extent.rank == 3 ? text + " x " + std::to_string(extent.size[2]) : text;
@@ -20,6 +31,7 @@ std::string size_text(const Extent& extent) {
 std::string missing_text(const MissingPolicy& policy) {
     if (policy.action == MissingPolicy::Action::error) return "refused";
     if (policy.action == MissingPolicy::Action::below) return "below all others";
+    if (policy.action == MissingPolicy::Action::above) return "above all others";
     return "replaced by " + exact_text(policy.value);
 }
 
@@ -72,9 +84,10 @@ std::uint64_t sum_of(VolumeReader& volume, const Context& context) {
 /// Differences from stores without a fingerprint.
 std::vector<std::string> differences_of_old(const Contents& contents, VolumeReader& volume, const BuildOptions& options,
                                             double tunnel_height, bool compare_samples, const Context& context) {
-    const Fingerprint there = fingerprint_of(contents);
-    Fingerprint here = header_fingerprint(analysed(volume.info()), options, tunnel_height);
+    Fingerprint there = fingerprint_of(contents), here = header_fingerprint(analysed(volume.info()), options, tunnel_height);
     std::erase_if(here.members, [&there](const Fingerprint::Member& member) { return there.find(member.name) == nullptr; });
+    if (options.polarities != PolarityChoice::high) here.add(kPolarityMember, name_of(options.polarities));
+    compare_polarities(there, here);
     std::vector<std::string> found = differences(there, here);
     if (!found.empty() || !compare_samples) return found;
     const bool are_as_read =
@@ -103,6 +116,7 @@ Fingerprint header_fingerprint(const VolumeInfo& file, const BuildOptions& optio
     fingerprint.add("Gaussian", options.gaussian > 0 ? exact_text(options.gaussian) : "");
     fingerprint.add("interpolant", name_of(options.analysis.interpolant));
     fingerprint.add("tunnel height", exact_text(tunnel_height));
+    if (options.polarities != PolarityChoice::high) fingerprint.add(kPolarityMember, name_of(options.polarities));
     return fingerprint;
 }
 
@@ -145,9 +159,10 @@ std::vector<std::string> store_differences(const Atlas& atlas, VolumeReader& vol
     for (Fingerprint::Member& member : there.members) {
         if (member.name == kUnitMember) member.text = unit_name(member.text);  // earlier stores have "um"
     }
-    const Fingerprint here = header_fingerprint(volume.info(), options, tunnel_height);
+    Fingerprint here = header_fingerprint(volume.info(), options, tunnel_height);
     const std::string* samples = contents.fingerprint.find(kSamplesMember);
     there.remove(kSamplesMember), there.remove(kAnalysedMember);
+    compare_polarities(there, here);
     std::vector<std::string> found = differences(there, here);
     if (!found.empty() || !compare_samples) return found;
     if (samples == nullptr || checksum_text(sum_of(volume, context)) != *samples) found.emplace_back("other samples there");

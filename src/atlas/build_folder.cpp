@@ -36,7 +36,11 @@ constexpr const char* kOtherFile = "rename or remove it, or build to another fil
                                       .reason = Reason::build_folder_taken});
 }
 
-bool is_phase(std::string_view name) { return name == "trees" || name == "zones"; }
+/// Names of the phases of either polarity (atlas/build.cpp).
+bool is_phase(std::string_view name) {
+    if (name.starts_with("low-")) name.remove_prefix(4);
+    return name == "trees" || name == "zones";
+}
 
 /// Removes the files of builds except the lock. Files that cannot be removed are replaced later.
 void remove_contents(const std::string& path) {

@@ -88,14 +88,15 @@ BuildEstimate estimate_build(VolumeReader& reader, const std::string& path, cons
     const std::int64_t census = (2 * std::int64_t{workers} + 1) * 40 * rounded(std::clamp(voxels / 256, 256.0, 65535.0));
     estimate.min_memory = filter + std::max(kMinMemory, kProgram + slices + bricks + census);
     estimate.uses_scratch = estimate.memory > estimate.budget / 5 * 3;
-    const double stored = elements > voxels / 2 ? 3 : 7;  // bytes an element; of noise without order and values
+    const double sides = options.polarities == PolarityChoice::both ? 2 : 1;
+    const double stored = sides * (elements > voxels / 2 ? 3 : 7);  // bytes an element; of noise without order and values
     estimate.store_bytes = rounded(voxels * sample + elements * stored);
     std::error_code ignored;
     const std::filesystem::path folder = std::filesystem::path(path).parent_path();
     const std::filesystem::space_info space = std::filesystem::space(folder.empty() ? "." : folder, ignored);
     estimate.disk_free = static_cast<std::int64_t>(std::min<std::uintmax_t>(space.available, INT64_MAX));
     estimate.disk = estimate.store_bytes + rounded(elements * stored) + (estimate.uses_scratch ? estimate.memory : 0);
-    estimate.seconds = (voxels * 4e-8 + elements * 8e-7) / std::min(workers, 8) + static_cast<double>(estimate.disk) / 1e9;
+    estimate.seconds = sides * (voxels * 4e-8 + elements * 8e-7) / std::min(workers, 8) + static_cast<double>(estimate.disk) / 1e9;
     return estimate;
 }
 

@@ -164,14 +164,35 @@ void measure_again(const Container& store, std::vector<Entry>& entries) {
     for (Entry& entry : entries) entry.measure = static_cast<double>(entry.voxels) * voxel_measure(info.geometry, info.extent, 0);
 }
 
+constexpr const char *kSides = "objects/sides", *kBorder = "objects/border";
+
+std::vector<PackedArray> border_arrays(const ObjectTable& table) {
+    std::vector<std::uint8_t> sides;
+    std::vector<double> parts;
+    for (const ObjectEntry& entry : table.entries) sides.push_back(entry.border.sides), parts.push_back(entry.border.part);
+    return {owned(kSides, "uint8", std::move(sides)), owned(kBorder, "float64", std::move(parts))};
+}
+
+void read_border(const Container& store, ObjectTable& table) {
+    if (!store.contents().has_array(kBorder)) return;
+    const auto sides = store.all<std::uint8_t>(kSides, "uint8");
+    const auto parts = store.all<double>(kBorder, "float64");
+    if (sides.size() != table.entries.size() || parts.size() != sides.size()) contradiction(store);
+    for (std::size_t i = 0; i < sides.size(); ++i) {
+        if (sides[i] > 63 || !(parts[i] >= 0 && parts[i] <= 1)) contradiction(store);
+        table.entries[i].border = {.sides = sides[i], .part = parts[i]};
+    }
+}
+
 }  // namespace
 
-std::vector<PackedArray> object_arrays(const ObjectTable& table) {
+std::vector<PackedArray> object_arrays(const ObjectTable& table, Polarity polarity) {
     std::vector<PackedArray> arrays;
     add_arrays([](const auto& visit) { for_members(visit); }, table.entries, arrays);
     add_arrays([](const auto& visit) { for_isovalue_members("isovalues", visit); }, table.isovalues, arrays);
     arrays.push_back(owned<std::int64_t>("objects/branches", "int64", {table.branches}));
     arrays.push_back(owned<double>("objects/noise", "float64", {table.noise}));
+    if (polarity == Polarity::low) std::ranges::move(border_arrays(table), std::back_inserter(arrays));
     return arrays;
 }
 
@@ -186,6 +207,7 @@ ObjectTable objects_of(const Container& store) {
     table.branches = branches[0], table.noise = noise[0];
     table.isovalues = isovalues_of(store, "isovalues");
     check(table, store);
+    read_border(store, table);
     const Extent& extent = store.contents().volume.extent;
     for (ObjectEntry& entry : table.entries) entry.position = position_of(entry.id, extent);
     measure_again(store, table.entries);

@@ -3,6 +3,7 @@
 //   objects/id, event, voxels, tunnels, cavities, inside, branch_top      int64, per entry, by rank
 //   objects/appears, merges, best_tau, measure, hypervolume, tau_low, tau_high     float64
 //   objects/outline, trunk                                     uint8
+//   objects/sides, border                                      uint8, float64: ObjectEntry::border; of objects of low values
 //   objects/branches, noise                                    one number each
 //   dark/...                                                   the table of cavities
 //   dark_isovalues/...                                         theirs
@@ -12,6 +13,8 @@
 #include <cstdint>
 #include <iterator>
 #include <vector>
+
+#include "isoatlas/polarity.h"
 
 namespace isoatlas {
 
@@ -27,7 +30,8 @@ inline constexpr std::int64_t kTableElements = std::int64_t{1} << 22;
 inline constexpr std::int64_t kStoredEntries = 1024;
 
 /// table: ranked with the gate and at most kStoredEntries entries. The arrays live on their own.
-[[nodiscard]] std::vector<PackedArray> object_arrays(const ObjectTable& table);
+/// polarity: low also stores where objects touch the border.
+[[nodiscard]] std::vector<PackedArray> object_arrays(const ObjectTable& table, Polarity polarity);
 
 [[nodiscard]] bool has_objects(const Container& store);
 /// Does a stored table (ObjectTable, CavityTable) list all that pass the gate?

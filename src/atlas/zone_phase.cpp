@@ -15,7 +15,7 @@ void add_tables(const Analysis& analysis, const VolumeView& volume, const Contex
     const ObjectsAndCavities tables = rank_both(volume, analysis, {.top = kStoredEntries}, quiet);
     done(0.9);
     const auto add = [&phase](std::vector<PackedArray> more) { std::ranges::move(more, std::back_inserter(phase.arrays)); };
-    add(object_arrays(tables.objects));
+    add(object_arrays(tables.objects, polarity_of(*volume.info)));
     add(cavity_arrays(tables.cavities));
     if (!stores_events(analysis)) return;
     add(event_arrays(analysis));

@@ -49,6 +49,7 @@ const char* name_of(Reason reason) {
         case Reason::not_a_store: return "not_a_store";
         case Reason::unknown_store_version: return "unknown_store_version";
         case Reason::no_such_part: return "no_such_part";
+        case Reason::polarity_not_stored: return "polarity_not_stored";
         case Reason::not_enough_memory: return "not_enough_memory";
         case Reason::memory_budget_too_small: return "memory_budget_too_small";
         case Reason::no_scratch_space: return "no_scratch_space";

@@ -32,6 +32,17 @@ const char* text_of(IsovalueReason reason) {
     return "";
 }
 
+std::string sides_text(const BorderContact& border) {
+    std::string text;
+    for (unsigned side = 0; side < 6; ++side) {
+        if ((border.sides >> side & 1U) == 0) continue;
+        if (!text.empty()) text += ' ';
+        text += side % 2 == 0 ? '-' : '+';
+        text += "xyz"[side / 2];
+    }
+    return text;
+}
+
 std::vector<RecommendedIsovalue> isovalues_of(std::span<const RecommendedIsovalue> isovalues, std::int64_t branch_top) {
     std::vector<RecommendedIsovalue> own;
     std::ranges::copy_if(isovalues, std::back_inserter(own),
@@ -47,7 +58,8 @@ std::optional<RecommendedIsovalue> isovalue_of(const ObjectTable& table, const O
 }
 
 bool is_background(const ObjectEntry& entry, const Extent& extent) {
-    return entry.outline && static_cast<double>(entry.voxels) > kBackgroundPart * static_cast<double>(extent.voxels());
+    const bool is_around = entry.border.is_known() && entry.border.sides == (extent.rank == 2 ? 15 : 63);
+    return (entry.outline || is_around) && static_cast<double>(entry.voxels) > kBackgroundPart * static_cast<double>(extent.voxels());
 }
 
 namespace {

@@ -4,12 +4,14 @@
 
 #include "analysis/analysis_data.h"
 #include "base/streamed.h"
+#include "features/border_contact.h"
 #include "features/cavity_walls.h"
 #include "features/noise.h"
 #include "features/rank.h"
 #include "field/order.h"
 #include "isoatlas/environment.h"
 #include "isoatlas/objects.h"
+#include "isoatlas/polarity.h"
 
 namespace isoatlas {
 namespace {
@@ -40,6 +42,7 @@ public:
         for (const BranchIsovalue& own : chosen.isovalues)
             table.isovalues.push_back({branches_.branch[own.branch].top.number(), own.tau, own.prominence, own.reason, own.cavity});
         for (std::size_t i = 0; i < chosen.rows.size(); ++i) table.entries.push_back(entry(chosen.rows[i], around[i]));
+        if (polarity_of(*volume_.info) == Polarity::low) add_border_contacts(volume_, tree_, table.entries);
         return first_entries(std::move(table), 0);
     }
 

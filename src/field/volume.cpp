@@ -1,8 +1,11 @@
 // The value types, extents and geometry of include/isoatlas/volume.h (everything there that reads no file).
 #include "isoatlas/volume.h"
 
+#include <cmath>
 #include <cstring>
 #include <limits>
+
+#include "field/error_free.h"
 
 namespace isoatlas {
 
@@ -43,6 +46,11 @@ int handedness(const Geometry& geometry) {
     const double determinant = m[0][0] * (m[1][1] * m[2][2] - m[1][2] * m[2][1]) - m[0][1] * (m[1][0] * m[2][2] - m[1][2] * m[2][0]) +
                                m[0][2] * (m[1][0] * m[2][1] - m[1][1] * m[2][0]);
     return determinant < 0 ? -1 : 1;
+}
+
+double mirrored(double mirror, double value) {
+    const TwoDoubles difference = two_difference(mirror, value);
+    return difference.low > 0 ? std::nextafter(difference.high, std::numeric_limits<double>::infinity()) : difference.high;
 }
 
 double voxel_measure(const Geometry& geometry, const Extent& extent, std::int64_t index) {

@@ -5,6 +5,7 @@
 #include "formats/common/byte_writer.h"
 #include "formats/common/file_extension.h"
 #include "isoatlas/measures.h"
+#include "isoatlas/polarity.h"
 
 namespace isoatlas {
 namespace {
@@ -14,7 +15,7 @@ constexpr const char* kColumns =
     "centroid_z,axis_1,axis_2,axis_3,axis_1_x,axis_1_y,axis_1_z,axis_2_x,axis_2_y,axis_2_z,axis_3_x,axis_3_y,axis_3_z,box_1,box_2,box_3,"
     "box_x,box_y,box_z,low_x,low_y,low_z,high_x,high_y,high_z,feret_max,feret_min,feret_mean,feret_max_x,feret_max_y,feret_max_z,feret_min_"
     "x,feret_min_y,feret_min_z,euler,"
-    "tunnels,cavities,touches_border,unit,value_unit\n";
+    "tunnels,cavities,touches_border,unit,value_unit";
 
 /// A text of a header in quotes.
 std::string quoted(const std::string& given) {
@@ -71,8 +72,9 @@ std::string checked_extension(const std::string& path) {
 void write_measures(Sink& sink, const VolumeInfo& info, std::span<const ObjectMeasures> objects) {
     (void)checked_extension(sink.name());
     ByteWriter out(sink);
-    out.text(kColumns);
-    const std::string units = "," + quoted(info.geometry.unit) + "," + quoted(info.value_unit) + "\n";
+    const bool is_low = polarity_of(info) == Polarity::low;
+    out.text(std::string(kColumns) + (is_low ? ",polarity\n" : "\n"));
+    const std::string units = "," + quoted(info.geometry.unit) + "," + quoted(info.value_unit) + (is_low ? ",low\n" : "\n");
     for (std::size_t i = 0; i < objects.size(); ++i) {
         put(out, info, static_cast<std::int64_t>(i) + 1, objects[i]);
         out.text(units);

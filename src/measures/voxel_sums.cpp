@@ -171,11 +171,12 @@ void MeasuredVoxels::describe(std::size_t object, ObjectMeasures& measures) cons
     measures.id = place.id;
     measures.voxels = sums.voxels;
     measures.voxel_volume = sums.weight * boxes_.skew;
+    const double sum = calibration.mirror ? *calibration.mirror * count - sums.sum : sums.sum;  // of the values of the file
     const double low = calibration.reported(sums.min), high = calibration.reported(sums.max);
     measures.values = {.mean = calibration.reported(std::clamp(sums.mean, sums.min, sums.max)),
                        .min = std::min(low, high),
                        .max = std::max(low, high),
-                       .sum = calibration.slope * sums.sum + calibration.intercept * count,
+                       .sum = calibration.slope * sum + calibration.intercept * count,
                        .deviation = calibration.reported_difference(std::sqrt(sums.squares / sums.weight))};
     const Vec3 mean = times(1 / sums.weight, sums.first);
     measures.centroid = plus(boxes_.origin, times(boxes_.direction, plus(reference_[object], mean)));

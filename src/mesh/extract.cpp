@@ -200,6 +200,7 @@ void extract_level(const TauLevel& level, const ExtractOptions& how, const Conte
     surface.interpolant = how.interpolant;
     surface.tunnel_height = how.tunnel_height;
     surface.reported_tunnel_height = info.calibration.reported_difference(how.tunnel_height);
+    surface.polarity = polarity_of(info);
 
     const bool selects = selects_components(options);
     std::optional<Components> components;

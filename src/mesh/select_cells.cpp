@@ -7,6 +7,7 @@
 
 #include "base/big_vector.h"
 #include "field/slab_work.h"
+#include "isoatlas/polarity.h"
 
 namespace isoatlas {
 namespace {
@@ -36,11 +37,13 @@ ObjectNumber object_at(const TauLevel& level, const Components& components, std:
     const RunId run = row.run_at(at[0] + 1);
     if (!row.is_high(run)) {
         const Calibration& calibration = level.info().calibration;
+        const bool is_low = polarity_of(level.info()) == Polarity::low;
         throw Error(ErrorKind::not_found,
                     {.where = describe_voxel(extent, voxel),
-                     .what = "its value " + shortest(calibration.reported(level.sample_at(voxel))) + " is below the isovalue " +
-                             shortest(calibration.reported(level.tau)) + ", so no object contains it",
-                     .next = "lower the isovalue, or list the objects at this isovalue and take one of their ids"});
+                     .what = "its value " + shortest(calibration.reported(level.sample_at(voxel))) + (is_low ? " is above" : " is below") +
+                             " the isovalue " + shortest(calibration.reported(level.tau)) + ", so no object contains it",
+                     .next = std::string(is_low ? "raise" : "lower") +
+                             " the isovalue, or list the objects at this isovalue and take one of their ids"});
     }
     return components.object_of(run);
 }

@@ -43,13 +43,14 @@ void put_array(JsonStream& json, const char* name, const Items& items, const Of&
 class Writer {
 public:
     Writer(JsonStream& json, const Atlas& atlas, const PageContents& contents, const std::string& source)
-        : json_(json), atlas_(atlas), contents_(contents), scale_(atlas.info().calibration), source_(shell_word(source)) {}
+        : json_(json), atlas_(atlas), contents_(contents), scale_(atlas.info().calibration), source_(command_source(atlas, source)) {}
 
     void write() {
         json_.begin_object().key("schema").value("isoatlas/page/3").key("version").value(ISOATLAS_VERSION).line();
         write_volume();
         write_notes();
         json_.key("interpolant").value(name_of(atlas_.interpolant()));
+        json_.key("polarity").value(name_of(polarity_of(atlas_.info())));
         write_counts();
         write_axis();
         json_.line().key("spectrum");
@@ -73,6 +74,17 @@ private:
         }
     }
     JsonStream& put_value(const char* name, double stored) { return json_.key(name).value(scale_.reported(stored)); }
+    /// "low" and "high", ascending.
+    void put_interval(double low, double high) {
+        const auto [first, last] = scale_.reported_interval(low, high);
+        json_.key("low").value(first).key("high").value(last);
+    }
+    /// An array along the axis of isovalues, ascending as reported.
+    template <class Items, class Of>
+    void put_along_axis(const char* name, const Items& items, const Of& of) {
+        if (!scale_.mirror) return put_array(json_, name, items, of);
+        put_array(json_, name, std::vector(items.rbegin(), items.rend()), of);
+    }
 
     void write_volume() {
         const VolumeInfo& info = atlas_.info();
@@ -92,8 +104,7 @@ private:
         json_.end_array();
         put_text(json_.key("unit"), unit_of(info.geometry));
         put_text(json_.key("valueUnit"), info.value_unit);
-        put_value("low", contents_.scale.low);
-        put_value("high", contents_.scale.high);
+        put_interval(contents_.scale.low, contents_.scale.high);
         json_.key("noise").value(scale_.reported_difference(contents_.noise)).end_object().line();
     }
 
@@ -132,17 +143,16 @@ private:
 
     void write_axis() {
         json_.line().key("axis").begin_object();
-        put_value("low", contents_.scale.low);
-        put_value("high", contents_.scale.high);
+        put_interval(contents_.scale.low, contents_.scale.high);
         json_.key("bend");
-        if (contents_.scale.bend > 0) {
+        if (contents_.scale.bend > 0 && !scale_.mirror) {  // the page bends its axis at the low end only
             json_.value(scale_.reported_difference(contents_.scale.bend));
         } else {
             json_.null();
         }
         json_.end_object().line().key("histogram").begin_object();
-        put_array(json_, "edges", contents_.histogram.edges, [&](double edge) { return scale_.reported(edge); });
-        put_array(json_, "counts", contents_.histogram.counts, [](std::int64_t count) { return count; });
+        put_along_axis("edges", contents_.histogram.edges, [&](double edge) { return scale_.reported(edge); });
+        put_along_axis("counts", contents_.histogram.counts, [](std::int64_t count) { return count; });
         json_.end_object();
     }
 
@@ -152,16 +162,17 @@ private:
             json_.null();
             return;
         }
-        json_.begin_object().key("edges").begin_array().value(scale_.reported(columns.front().low));
-        for (const CountColumn& column : columns) json_.value(scale_.reported(column.high));
-        json_.end_array();
+        std::vector<double> edges{columns.front().low};
+        for (const CountColumn& column : columns) edges.push_back(column.high);
+        json_.begin_object();
+        put_along_axis("edges", edges, [&](double edge) { return scale_.reported(edge); });
         const auto put = [&](LevelCounts CountColumn::* min, LevelCounts CountColumn::* max) {
             const auto put_count = [&](const char* name, std::int64_t LevelCounts::* count) {
                 json_.key(name).begin_object();
-                put_array(json_, "max", columns, [&](const CountColumn& column) { return (column.*max).*count; });
+                put_along_axis("max", columns, [&](const CountColumn& column) { return (column.*max).*count; });
                 const bool same =
                     std::ranges::all_of(columns, [&](const CountColumn& column) { return (column.*min).*count == (column.*max).*count; });
-                if (!same) put_array(json_, "min", columns, [&](const CountColumn& column) { return (column.*min).*count; });
+                if (!same) put_along_axis("min", columns, [&](const CountColumn& column) { return (column.*min).*count; });
                 json_.end_object();
             };
             if (all_counts) {
@@ -248,8 +259,7 @@ private:
         put_text(json_.key("name"), entry.name);
         json_.key("id").value(entry.id);
         put_value("tau", entry.tau);
-        put_value("low", entry.tau_low);
-        put_value("high", entry.tau_high);
+        put_interval(entry.tau_low, entry.tau_high);
         json_.key("voxels").value(entry.voxels).key("measure").value(entry.measure);
         json_.key("tunnels").value(entry.tunnels).key("cavities").value(entry.cavities);
         json_.key("inside").value(entry.inside).key("around").value(entry.around);
@@ -294,6 +304,11 @@ private:
 };
 
 }  // namespace
+
+std::string command_source(const Atlas& atlas, const std::string& source) {
+    const bool needs_side = atlas.polarities() == PolarityChoice::both && polarity_of(atlas.info()) == Polarity::low;
+    return shell_word(source) + (needs_side ? " --polarity low" : "");
+}
 
 void write_page_json(JsonStream& json, const Atlas& atlas, const PageContents& contents, const std::string& source) {
     Writer(json, atlas, contents, source).write();

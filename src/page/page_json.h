@@ -8,6 +8,9 @@
 
 namespace isoatlas {
 
+/// A store as commands name it: as a word, one of both polarities with the option of the one that is open.
+[[nodiscard]] std::string command_source(const Atlas& atlas, const std::string& source);
+
 /// source: file named in commands.
 void write_page_json(JsonStream& json, const Atlas& atlas, const PageContents& contents, const std::string& source);
 

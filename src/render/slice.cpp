@@ -81,6 +81,11 @@ ValueWindow value_window(const Volume& volume, const SliceOptions& options) {
     });
 }
 
+/// Of a negated volume the grey is that of the file.
+ValueWindow as_in_file(const VolumeInfo& info, const ValueWindow& window) {
+    return polarity_of(info) == Polarity::low ? ValueWindow{window.white, window.black} : window;
+}
+
 /// Where a sample position appears, in pixels.
 double pixel_of(const std::vector<double>& positions, double x) {
     const auto n = static_cast<double>(positions.size());
@@ -133,7 +138,7 @@ SceneSlice slice_picture(const Volume& volume, const SliceOptions& options, cons
     const std::vector<double> columns = positions(geometry, plane.across, extent.size[plane.across], slice.picture.width, false);
     const std::vector<double> rows = positions(geometry, plane.down, extent.size[plane.down], slice.picture.height, plane.flipped);
     const Volume flat = slice_of(volume, options.axis, options.index);
-    const ValueWindow window = value_window(volume, options);
+    const ValueWindow window = as_in_file(volume.info, value_window(volume, options));
     const double range = window.white == window.black ? 1 : window.white - window.black;
     for_each_block(context.threads, slice.picture.height, [&](std::int64_t y) {
         for (std::int64_t x = 0; x < slice.picture.width; ++x) {

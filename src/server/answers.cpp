@@ -115,7 +115,8 @@ std::string transfer_json(std::span<const OpacityTent> tents, const Calibration&
         json.key("tents").begin_array();
         for (const OpacityTent& bump : tents) {
             json.line().begin_object().key("tau").value(calibration.reported(bump.tau));
-            json.key("low").value(calibration.reported(bump.low)).key("high").value(calibration.reported(bump.high));
+            const auto [low, high] = calibration.reported_interval(bump.low, bump.high);
+            json.key("low").value(low).key("high").value(high);
             json.key("ramp").value(bump.ramp).key("density").value(bump.density);
             json.key("colour").value(web_colour(bump.colour)).end_object();
         }

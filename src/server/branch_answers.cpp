@@ -6,7 +6,7 @@
 
 #include "atlas/access.h"
 #include "base/cancel.h"
-#include "isoatlas/shell_word.h"
+#include "page/page_json.h"
 #include "server/document.h"
 
 namespace isoatlas {
@@ -74,7 +74,7 @@ std::string branches_json(const Atlas& atlas, const BranchHierarchy& hierarchy, 
         entries.push_back(entry_of(atlas, all[branch.index()]));
     }
     return document("branches", [&](JsonStream& json) {
-        json.key("source").value(shell_word(atlas.info().path)).key("all").value(all.size()).key("kept").value(kept.size());
+        json.key("source").value(command_source(atlas, atlas.info().path)).key("all").value(all.size()).key("kept").value(kept.size());
         const auto put = [&](const char* name, auto&& value) {
             json.line().key(name).begin_array();
             for (std::size_t i = 0; i < listed.size(); ++i) json.value(value(all[listed[i].index()], entries[i]));
@@ -87,8 +87,8 @@ std::string branches_json(const Atlas& atlas, const BranchHierarchy& hierarchy, 
         put("id", [](Branch branch, Entry) { return branch.id; });
         put("voxel", [](Branch, Entry entry) { return entry.id; });
         put("tau", [&](Branch, Entry entry) { return scale.reported(entry.tau); });
-        put("low", [&](Branch, Entry entry) { return scale.reported(entry.tau_low); });
-        put("high", [&](Branch, Entry entry) { return scale.reported(entry.tau_high); });
+        put("low", [&](Branch, Entry entry) { return scale.reported_interval(entry.tau_low, entry.tau_high)[0]; });
+        put("high", [&](Branch, Entry entry) { return scale.reported_interval(entry.tau_low, entry.tau_high)[1]; });
         put("tunnels", [](Branch, Entry entry) { return entry.tunnels; });
         put("cavities", [](Branch, Entry entry) { return entry.cavities; });
         put("appears", [&](Branch branch, Entry) { return scale.reported(branch.appears); });

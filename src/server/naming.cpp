@@ -7,7 +7,7 @@
 namespace isoatlas {
 namespace {
 
-std::string file_of(const Atlas& atlas) { return object_names_path(atlas.info().path); }
+std::string file_of(const Atlas& atlas) { return object_names_path(atlas.info().path, polarity_of(atlas.info())); }
 
 std::vector<ObjectName> names_of(const Atlas& atlas) { return read_object_names(file_of(atlas), atlas.info().extent); }
 

@@ -38,7 +38,9 @@ std::string wire_slice(const Volume& slice, int axis, std::int64_t step) {
     header.rows = static_cast<std::uint32_t>(size[axis == 2 ? 1 : 2]);
     header.step = static_cast<std::uint32_t>(step);
     header.type = static_cast<std::uint32_t>(slice.info.type);
-    header.slope = slice.info.calibration.slope, header.intercept = slice.info.calibration.intercept;
+    const Calibration& scale = slice.info.calibration;
+    header.slope = scale.mirror ? -scale.slope : scale.slope;
+    header.intercept = scale.intercept + scale.slope * scale.mirror.value_or(0);
     std::string bytes = begun_with(header, slice.bytes.size());
     std::memcpy(bytes.data() + sizeof header, slice.bytes.data(), slice.bytes.size());
     return bytes;
@@ -48,12 +50,13 @@ std::string wire_volume(const CoarseVolume& volume, std::array<double, 2> range,
     VolumeHeader header;
     for (std::size_t a = 0; a < 3; ++a) header.size[a] = static_cast<std::uint32_t>(volume.extent.size[a]);
     header.step = static_cast<std::uint32_t>(volume.step);
-    header.low = calibration.reported(range[0]), header.high = calibration.reported(range[1]);
+    const auto [low, high] = calibration.reported_interval(range[0], range[1]);
+    header.low = low, header.high = high;
     const double per_value = range[1] > range[0] ? 255 / (range[1] - range[0]) : 0;
     std::string bytes = begun_with(header, volume.mean.size());
     for (std::size_t i = 0; i < volume.mean.size(); ++i) {
         const double place = std::clamp((static_cast<double>(volume.mean[i]) - range[0]) * per_value, 0.0, 255.0);
-        bytes[sizeof header + i] = static_cast<char>(static_cast<unsigned char>(std::lround(place)));
+        bytes[sizeof header + i] = static_cast<char>(static_cast<unsigned char>(std::lround(calibration.mirror ? 255 - place : place)));
     }
     return bytes;
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstring>
 #include <limits>
+#include <utility>
 
 #include "base/cancel.h"
 #include "base/check.h"
@@ -11,6 +12,7 @@
 #include "codec/brick_codec.h"
 #include "codec/checksum.h"
 #include "field/brick_extremes.h"
+#include "field/negate.h"
 #include "isoatlas/error.h"
 
 namespace isoatlas {
@@ -39,6 +41,7 @@ template <class T>
 BrickReader<T>::BrickReader(const Container& store)
     : store_(store),
       data_(store.contents().array("volume/data", "uint8")),
+      is_negated_(polarity_of(store.contents().volume) == Polarity::low),
       grid_(store.contents().volume.extent),
       offset_(store.all<std::uint64_t>("volume/offset", "uint64")),
       sums_(store.all<std::uint64_t>("volume/checksum", "uint64")),
@@ -57,6 +60,9 @@ BrickReader<T>::BrickReader(const Container& store)
         if (offset_[i] > bytes || bytes_[i] > bytes - offset_[i]) damaged(store, brick, "it lies outside the data");
     }
     check_places();
+    if (!is_negated_) return;
+    for (std::vector<T>* values : {&low_, &high_}) std::ranges::transform(*values, values->begin(), negated_sample<T>);
+    std::swap(low_, high_);
 }
 
 template <class T>
@@ -102,7 +108,9 @@ void BrickReader<T>::decode(BrickId brick, std::span<const std::byte> packed,
     std::array<T, kBrickSamples> samples;
     const Index3 size = grid_.box(brick).size();
     const std::span<T> box(samples.data(), static_cast<std::size_t>(size.product()));
-    if (!decode_brick<T>(packed, size, low_[i], box)) damaged(store_, brick, "it cannot be decoded");
+    const T first = is_negated_ ? negated_sample(high_[i]) : low_[i];  // that of the encoded samples
+    if (!decode_brick<T>(packed, size, first, box)) damaged(store_, brick, "it cannot be decoded");
+    if (is_negated_) std::ranges::transform(box, box.begin(), negated_sample<T>);
     if (box[lowest_[i]] != low_[i] || box[highest_[i]] != high_[i]) damaged(store_, brick, kWrongExtremes);
     sink(brick, box);
 }

@@ -19,6 +19,7 @@ public:
     explicit BrickReader(const Container& store);
 
     [[nodiscard]] const BrickGrid& grid() const { return grid_; }
+    /// Of the samples as they come out: negated ones when the store is open for objects of low values.
     [[nodiscard]] T low(BrickId brick) const { return low_[brick.index()]; }
     [[nodiscard]] T high(BrickId brick) const { return high_[brick.index()]; }
 
@@ -62,6 +63,7 @@ private:
 
     const Container& store_;
     const StoredArray& data_;
+    bool is_negated_;
     BrickGrid grid_;
     std::vector<std::uint64_t> offset_, sums_;
     std::vector<std::uint16_t> bytes_;

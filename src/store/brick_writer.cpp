@@ -30,6 +30,17 @@ void copy_box(std::span<const T> samples, const Extent& extent, const Box& box, 
 
 constexpr std::int64_t kTogether = 512;  // bricks of one task, and of one buffer
 
+/// work(brick) for all bricks, in parallel.
+void for_each_brick(const BrickGrid& grid, int threads, const auto& work) {
+    for_each_block(threads, (grid.count() + kTogether - 1) / kTogether, [&](std::int64_t block) {
+        for (std::int64_t i = block * kTogether; i < std::min((block + 1) * kTogether, grid.count()); ++i) work(BrickId(i));
+    });
+}
+
+PackedArray array_of_bricks(const char* name, const char* type, const BrickGrid& grid, std::function<void(const ByteSink&)> feed) {
+    return {name, type, {grid.size[2], grid.size[1], grid.size[0]}, kBlock, std::move(feed)};
+}
+
 template <class T>
 struct Bricks {
     std::span<const T> samples;
@@ -49,9 +60,7 @@ struct Bricks {
         offset.resize(count), sums.resize(count), packed_bytes.resize(count), heads.resize(count);
         low.resize(count), high.resize(count);
         lowest.resize(count), highest.resize(count);
-        for_each_block(threads, (grid.count() + kTogether - 1) / kTogether, [this](std::int64_t block) {
-            for (std::int64_t i = block * kTogether; i < std::min((block + 1) * kTogether, grid.count()); ++i) measure(BrickId(i));
-        });
+        for_each_brick(grid, threads, [this](BrickId brick) { measure(brick); });
         for (const BrickId brick : order) {
             offset[brick.index()] = static_cast<std::uint64_t>(bytes);
             bytes += packed_bytes[brick.index()];
@@ -102,9 +111,8 @@ std::vector<PackedArray> brick_arrays(const VolumeView& volume, const Context& c
     visit_samples(volume, [&]<class T>(std::span<const T> samples) {
         const auto bricks = std::make_shared<Bricks<T>>(samples, volume.info->extent, context.threads);
         const auto add = [&]<class N>(const char* name, const char* type, const std::vector<N>& numbers) {
-            const std::vector<std::int64_t> shape{bricks->grid.size[2], bricks->grid.size[1], bricks->grid.size[0]};
-            arrays.push_back(
-                {name, type, shape, kBlock, [bricks, &numbers](const ByteSink& put) { put(std::as_bytes(std::span(numbers))); }});
+            arrays.push_back(array_of_bricks(name, type, bricks->grid,
+                                             [bricks, &numbers](const ByteSink& put) { put(std::as_bytes(std::span(numbers))); }));
         };
         arrays.push_back({"volume/data", "uint8", {bricks->bytes}, 0, [bricks](const ByteSink& put) { bricks->feed(put); }});
         add("volume/offset", "uint64", bricks->offset);
@@ -116,6 +124,26 @@ std::vector<PackedArray> brick_arrays(const VolumeView& volume, const Context& c
         add("volume/checksum", "uint64", bricks->sums);
     });
     return arrays;
+}
+
+std::vector<PackedArray> brick_place_arrays(const VolumeView& volume, const Context& context) {
+    const BrickGrid grid(volume.info->extent);
+    const auto places = std::make_shared<std::vector<ExtremePlaces>>(static_cast<std::size_t>(grid.count()));
+    visit_samples(volume, [&]<class T>(std::span<const T> samples) {
+        for_each_brick(grid, context.threads, [&](BrickId brick) {
+            std::vector<T> values;
+            copy_box(samples, grid.extent, grid.box(brick), values);
+            (*places)[brick.index()] = extreme_places<T>(values);
+        });
+    });
+    const auto array = [&](const char* name, std::uint16_t ExtremePlaces::* place) {
+        return array_of_bricks(name, "uint16", grid, [places, place](const ByteSink& put) {
+            std::vector<std::uint16_t> numbers;
+            for (const ExtremePlaces& both : *places) numbers.push_back(both.*place);
+            put(std::as_bytes(std::span<const std::uint16_t>(numbers)));
+        });
+    };
+    return {array("volume/lowest", &ExtremePlaces::lowest), array("volume/highest", &ExtremePlaces::highest)};
 }
 
 }  // namespace isoatlas

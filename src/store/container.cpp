@@ -37,14 +37,14 @@ std::array<std::byte, kHeaderBytes> bytes_of_header(const Header& header) {
     return bytes;
 }
 
-std::vector<ByteRange> checked_ranges(const Contents& contents, const Header& header) {
+std::vector<ByteRange> checked_ranges(const std::vector<StoredArray>& arrays, const Header& header) {
     std::vector<ByteRange> ranges;
     const auto add = [&ranges](std::int64_t offset, std::int64_t bytes) {
         ranges.push_back({static_cast<std::uint64_t>(offset), static_cast<std::uint64_t>(bytes)});
     };
     add(0, kHeaderBytes);
     add(header.contents_offset, header.contents_bytes);
-    for (const StoredArray& array : contents.arrays) {
+    for (const StoredArray& array : arrays) {
         add(array.checksums, array.index_bytes());
         if (array.chunk == 0) add(array.offset, array.bytes());
     }
@@ -68,6 +68,7 @@ bool begins_like_a_store(std::span<const std::byte> first) {
 Container::Container(const std::string& path, const Corrections& corrections)
     : path_(path), file_(open_file(path)), file_size_(file_->size()) {
     read_header();
+    all_arrays_ = contents_.arrays;
     if (corrections.is_empty()) return;
     const Geometry before = contents_.volume.geometry;
     correct(contents_.volume, corrections);
@@ -79,6 +80,10 @@ Container::Container(const std::string& path, const Corrections& corrections)
                                        .expected = "the spacing of the store",
                                        .next = "omit the spacing, or build another store from the volume"});
     }
+}
+
+Container::Container(const std::string& path, Polarity polarity, const Corrections& corrections) : Container(path, corrections) {
+    contents_ = contents_of(contents_, polarity);
 }
 
 void Container::damaged(const std::string& where, const std::string& what) const {
@@ -140,11 +145,11 @@ bool Container::check_frame() {
 }
 
 void Container::check_nothing_is_left_out() const {
-    std::vector<ByteRange> covered = checked_ranges(contents_, header_);
+    std::vector<ByteRange> covered = checked_ranges(all_arrays_, header_);
     std::ranges::copy(frame_.ranges, std::back_inserter(covered));
     const std::uint64_t trailer = bytes_of_trailer(frame_).size();
     covered.push_back({static_cast<std::uint64_t>(file_size_) - trailer, trailer});
-    for (const StoredArray& array : contents_.arrays) {
+    for (const StoredArray& array : all_arrays_) {
         if (array.chunk == 0) continue;
         for (const StoredChunk& chunk : chunks_of(array, 0, array.blocks())) covered.push_back({chunk.offset, chunk.bytes});
     }
@@ -249,7 +254,7 @@ bool Container::read_if_present(const StoredArray& array, std::int64_t first, st
 }
 
 void Container::check_all() const {
-    for (const StoredArray& array : contents_.arrays) {
+    for (const StoredArray& array : all_arrays_) {
         if (array.block == 0) continue;
         (void)index_of(array);
         std::vector<std::byte> block(static_cast<std::size_t>(std::min(array.block, array.bytes())));

@@ -27,7 +27,7 @@ struct Header {
 };
 [[nodiscard]] std::array<std::byte, kHeaderBytes> bytes_of_header(const Header& header);
 /// Ranges with checksums of their own: header, contents, arrays and their block tables; without the chunks of arrays.
-[[nodiscard]] std::vector<ByteRange> checked_ranges(const Contents& contents, const Header& header);
+[[nodiscard]] std::vector<ByteRange> checked_ranges(const std::vector<StoredArray>& arrays, const Header& header);
 /// Is a file a store, possibly damaged? `first`: its first kBeginning bytes, or all of a shorter file. Most of the magic number, or HDF5's
 /// at its position in a store, is sufficient: checksums find further damage.
 inline constexpr std::size_t kBeginning = kHeaderBytes + 8;
@@ -37,8 +37,10 @@ inline constexpr std::size_t kBeginning = kHeaderBytes + 8;
 class Container {
 public:
     /// Reads header and contents. Throws Error: input (missing, not a store, incomplete, damaged), unsupported (a later version).
-    /// corrections: of contents().volume, in memory.
+    /// All arrays, as in the file. corrections: of contents().volume, in memory.
     explicit Container(const std::string& path, const Corrections& corrections = {});
+    /// Those of one polarity, as those of a store of it alone (contents_of()). Throws as above, unsupported when it does not hold it.
+    Container(const std::string& path, Polarity polarity, const Corrections& corrections = {});
 
     [[nodiscard]] const Header& header() const { return header_; }
     [[nodiscard]] const Contents& contents() const { return contents_; }
@@ -98,6 +100,7 @@ private:
     Header header_;
     StoreFrame frame_;  ///< empty before version 3
     Contents contents_;
+    std::vector<StoredArray> all_arrays_;  ///< of the file
     bool has_other_steps_ = false;
 };
 

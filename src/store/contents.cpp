@@ -118,6 +118,13 @@ StoredArray array_of(const Json& json) {
     return array;
 }
 
+PolarityChoice polarities_of(const std::string& name) {
+    for (const PolarityChoice choice : {PolarityChoice::high, PolarityChoice::low, PolarityChoice::both}) {
+        if (name == name_of(choice)) return choice;
+    }
+    throw Unreadable("'" + name + "' is not a polarity");
+}
+
 bool lies_inside(std::int64_t offset, std::int64_t bytes, std::int64_t file_size) {
     return offset >= 0 && bytes >= 0 && offset <= file_size && bytes <= file_size - offset;
 }
@@ -178,6 +185,28 @@ const StoredArray& Contents::array(std::string_view name, std::string_view type)
     damaged(volume.path, std::string(name), "the store has no such array of the type " + std::string(type));
 }
 
+Contents contents_of(const Contents& whole, Polarity polarity) {
+    if (!holds(whole.polarities, polarity)) {
+        throw Error(ErrorKind::unsupported, {.file = whole.volume.path,
+                                             .what = std::string("the store does not hold objects of ") + name_of(polarity) + " values",
+                                             .next = "build another one from the volume, of both polarities",
+                                             .reason = Reason::polarity_not_stored,
+                                             .value = name_of(polarity)});
+    }
+    Contents one = whole;
+    std::erase_if(one.arrays, [](const StoredArray& array) { return array.name.starts_with(kLowGroup); });
+    if (polarity == Polarity::high) return one;
+    one.volume.calibration.mirror = mirror_of(one.volume.type);
+    std::erase_if(one.arrays, [](const StoredArray& array) { return !array.name.starts_with("volume/"); });
+    for (StoredArray array : whole.arrays) {
+        if (!array.name.starts_with(kLowGroup)) continue;
+        array.name.erase(0, kLowGroup.size());
+        std::erase_if(one.arrays, [&](const StoredArray& other) { return other.name == array.name; });
+        one.arrays.push_back(std::move(array));
+    }
+    return one;
+}
+
 std::string to_json(const Contents& contents) {
     Json json{{"format", "isoatlas store"}, {"version", contents.version}, {"volume", json_of(contents.volume)}};
     json["parameters"] = {{"interpolant", name_of(contents.parameters.interpolant)},
@@ -185,6 +214,7 @@ std::string to_json(const Contents& contents) {
                           {"samples_checksum", contents.parameters.samples_checksum}};
     if (contents.version >= 3) json["fingerprint"] = json_of(contents.fingerprint);
     if (contents.is_replaceable) json["replaceable"] = true;
+    if (contents.polarities != PolarityChoice::high) json["polarity"] = name_of(contents.polarities);
     Json& arrays = json["arrays"] = Json::array();
     for (const StoredArray& a : contents.arrays) {
         arrays.push_back({{"name", a.name},
@@ -203,10 +233,10 @@ Contents contents_of_json(std::string_view text, const std::string& path, std::i
     const Json json = Json::parse(text);
     Contents contents;
     const std::int64_t version = integer(json.at("version"));
-    if (version < 1 || version > kStoreVersion) {
+    if (version < 1 || version > kPolarityVersion) {
         throw Error(ErrorKind::unsupported, {.file = path,
                                              .what = "is a store of version " + std::to_string(version),
-                                             .expected = "version 1 to " + std::to_string(kStoreVersion),
+                                             .expected = "version 1 to " + std::to_string(kPolarityVersion),
                                              .next = "use the version of isoatlas that built it, or build it again",
                                              .reason = Reason::unknown_store_version});
     }
@@ -220,6 +250,7 @@ Contents contents_of_json(std::string_view text, const std::string& path, std::i
     contents.parameters.samples_checksum = unsigned_integer(parameters.at("samples_checksum"));
     if (contents.version >= 3) contents.fingerprint = fingerprint_of(json.at("fingerprint"));
     contents.is_replaceable = json.value("replaceable", false);
+    contents.polarities = polarities_of(json.value("polarity", "high"));
     for (const Json& entry : json.at("arrays")) {
         contents.arrays.push_back(array_of(entry));
         if (!is_sound(contents.arrays.back(), file_size)) damaged(path, contents.arrays.back().name, "the array lies outside the file");

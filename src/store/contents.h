@@ -10,12 +10,14 @@
 #include <vector>
 
 #include "isoatlas/interpolant.h"
+#include "isoatlas/polarity.h"
 #include "isoatlas/volume.h"
 #include "store/fingerprint.h"
 
 namespace isoatlas {
 
 inline constexpr int kStoreVersion = 3;
+inline constexpr int kPolarityVersion = 4;    // of stores with objects of low values: version 3 with another set of arrays
 inline constexpr int kFirstExactVersion = 3;  // since this version values of saddles are rounded once (critical/element_values.h)
 
 /// Numbers in a row of bytes, little endian, first index slowest.
@@ -54,8 +56,9 @@ struct Contents {
     int version = kStoreVersion;
     VolumeInfo volume;  ///< extent, type, geometry, calibration, value unit; path is the name of the source
     Parameters parameters;
-    Fingerprint fingerprint;      ///< empty in stores of versions 1 and 2
-    bool is_replaceable = false;  ///< built beside a page and replaceable (BuildOptions::is_replaceable)
+    Fingerprint fingerprint;                           ///< empty in stores of versions 1 and 2
+    bool is_replaceable = false;                       ///< built beside a page and replaceable (BuildOptions::is_replaceable)
+    PolarityChoice polarities = PolarityChoice::high;  ///< whose trees and tables it holds
     std::vector<StoredArray> arrays;
 
     /// Throws Error{input} when there is no array of that name and type.
@@ -65,6 +68,12 @@ struct Contents {
     /// differently, and tables followed other rules.
     [[nodiscard]] bool has_present_values() const;
 };
+
+/// Arrays about the negated samples have this before the names that they have of the samples.
+inline constexpr std::string_view kLowGroup = "low/";
+/// The contents as those of a store of one polarity alone: `low/NAME` is named NAME, and the samples count as negated. Throws Error:
+/// unsupported when it does not hold that polarity.
+[[nodiscard]] Contents contents_of(const Contents& whole, Polarity polarity);
 
 /// Bytes of one number of a type; 0: no such type.
 [[nodiscard]] std::int64_t size_of_type(std::string_view type);

@@ -182,7 +182,7 @@ std::int64_t pack_store(const std::string& path, Contents contents, const std::v
     for (const Hdf5Layout::Piece& piece : pieces) file.write_at(piece.offset, piece.bytes);
     const std::int64_t end = std::max(file.size(), layout.size());
     file.extend(end);
-    std::ranges::copy(checked_ranges(contents, header), std::back_inserter(covered));
+    std::ranges::copy(checked_ranges(contents.arrays, header), std::back_inserter(covered));
     const StoreFrame frame = frame_of(outside(std::move(covered), static_cast<std::uint64_t>(end)), pieces);
     const std::vector<std::byte> trailer = bytes_of_trailer(frame);
     file.write_at(end, trailer);

@@ -7,4 +7,9 @@ const char* name_of(Criticality kind) {
     return kName[static_cast<int>(kind)];
 }
 
+Criticality mirrored(Criticality kind) {
+    if (kind == Criticality::maximum) return Criticality::minimum;
+    return kind == Criticality::minimum ? Criticality::maximum : kind;
+}
+
 }  // namespace isoatlas

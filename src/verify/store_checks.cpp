@@ -62,8 +62,10 @@ CheckResult bricks_hold_active_cells(const Atlas& atlas, const Volume& samples) 
     const StoreDump store(atlas.info().path);
     const StoreNumbers low = store.read(store.find("volume/low"), 0, grid.count()),
                        high = store.read(store.find("volume/high"), 0, grid.count());
+    const Calibration& scale = atlas.info().calibration;
     for (const BrickId b : grid.bricks()) {
-        const std::array<double, 2> range = range_of(samples, grid.box(b));
+        std::array<double, 2> range = range_of(samples, grid.box(b));
+        if (scale.mirror) range = {scale.of_file(range[1]), scale.of_file(range[0])};
         const double stored_low = number_of(low, b.index()), stored_high = number_of(high, b.index());
         if (stored_low == range[0] && stored_high == range[1]) continue;
         check.fail("brick " + std::to_string(b.number()) + " has samples " + std::to_string(range[0]) + " to " + std::to_string(range[1]) +
@@ -99,7 +101,8 @@ CheckResult stored_tree_equals_analysis(const Analysis& stored, const Analysis& 
 CheckResult stored_events_follow_from_elements(const Atlas& atlas, const Analysis& stored) {
     Check check("stored_events_follow_from_elements");
     if (!stores_events(stored)) return check.result("events are not stored for that many elements");
-    if (const std::string wrong = first_wrong_event(Container(atlas.info().path), stored); !wrong.empty()) check.fail(wrong);
+    if (const std::string wrong = first_wrong_event(Container(atlas.info().path, polarity_of(atlas.info())), stored); !wrong.empty())
+        check.fail(wrong);
     return check.result(std::to_string(stored.event_count()) + " events");
 }
 

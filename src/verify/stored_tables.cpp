@@ -31,7 +31,8 @@ std::string number_text(std::span<const std::byte> bytes, const std::string& typ
 
 class TableComparison {
 public:
-    explicit TableComparison(const Atlas& atlas) : store_(atlas.info().path), is_present_(store_.contents().has_present_values()) {}
+    explicit TableComparison(const Atlas& atlas)
+        : store_(atlas.info().path, polarity_of(atlas.info())), is_present_(store_.contents().has_present_values()) {}
 
     [[nodiscard]] const Container& store() const { return store_; }
     [[nodiscard]] bool is_present() const { return is_present_; }
@@ -99,7 +100,13 @@ CheckResult stored_tables_are_recomputed(const Atlas& atlas, const Volume& sampl
     const VolumeView volume(samples);
     Context silent = context;
     silent.progress = nullptr;
-    const std::vector<PackedArray> bricks = brick_arrays(volume, silent);
+    const bool is_low = polarity_of(samples.info) == Polarity::low;
+    const Volume as_packed = is_low ? negated(samples) : Volume();
+    std::vector<PackedArray> bricks = brick_arrays(is_low ? VolumeView(as_packed) : volume, silent);
+    if (is_low) {
+        std::erase_if(bricks, [](const PackedArray& array) { return array.name == "volume/lowest" || array.name == "volume/highest"; });
+        std::ranges::move(brick_place_arrays(volume, silent), std::back_inserter(bricks));
+    }
     const LevelCensus census = take_census(volume, silent);
     comparison.compare(census_arrays(census));
     if (!comparison.is_present()) {

@@ -32,15 +32,31 @@ double typed_value(double stored, ValueType type) {
     return typed;
 }
 
-/// Fill values lie below all others where the type has room for it, else they become the lowest of the others.
+/// Fill values lie below all others where the type has room for it, else they become the lowest of the others; for objects of low values
+/// above all others, else the highest.
+MissingPolicy without_fill(MissingPolicy missing, const FillValue& fill, ValueType type, bool is_low) {
+    using Action = MissingPolicy::Action;
+    missing.no_data = typed_value(fill.value, type);
+    if (missing.action == Action::replace) return missing;
+    const bool has_room = visit_type(type, [&]<class T>(T) {
+        return is_low ? fill.high < static_cast<double>(std::numeric_limits<T>::max())
+                      : fill.low > static_cast<double>(std::numeric_limits<T>::lowest());
+    });
+    const Action beyond = is_low ? Action::above : Action::below;
+    if (missing.action == Action::error) {
+        missing.action = has_room ? beyond : Action::replace;
+        missing.value = is_low ? fill.high : fill.low;
+    }
+    return missing;
+}
+
 void leave_out(Arguments& arguments, const FillValue& fill, const VolumeInfo& info, std::int64_t samples) {
-    const bool has_room =
-        visit_type(info.type, [&]<class T>(T) { return fill.low > static_cast<double>(std::numeric_limits<T>::lowest()); });
-    MissingPolicy& missing = arguments.missing;
-    missing.no_data = typed_value(fill.value, info.type);
-    if (missing.action == MissingPolicy::Action::error) {
-        missing.action = has_room ? MissingPolicy::Action::below : MissingPolicy::Action::replace;
-        missing.value = fill.low;
+    const MissingPolicy given = arguments.missing;
+    arguments.missing = without_fill(given, fill, info.type, arguments.is_low());
+    if (arguments.polarity == PolarityChoice::both && given.action != MissingPolicy::Action::replace) {
+        MissingPolicy of_low = given;
+        if (of_low.action == MissingPolicy::Action::below) of_low.action = MissingPolicy::Action::above;
+        arguments.inputs.missing_of_low = without_fill(of_low, fill, info.type, true);
     }
     const Scale scale(info);
     arguments.inputs.assumed.push_back(fmt::format(
@@ -56,11 +72,13 @@ void take_labels(Arguments& arguments, const SampleSurvey& survey) {
                                         percent(survey.likeness.equal));
     if (arguments.verb == "objects" || arguments.verb == "extract") {
         const bool has_isovalue = arguments.tau || arguments.best || arguments.cavities || arguments.both || arguments.selects ||
-                                  arguments.all || !arguments.curve.empty();
+                                  arguments.all || !arguments.curve.empty() || arguments.is_low() ||
+                                  arguments.polarity == PolarityChoice::both;
         inputs.are_labels = !has_isovalue;
-        inputs.assumed.push_back(why + (has_isovalue
-                                            ? ", isovalues between them mean nothing; without them there is one object for each label"
-                                            : ": one object for each; --labels no takes them as values"));
+        inputs.assumed.push_back(
+            why + (has_isovalue
+                       ? ", isovalues between them mean nothing; without them and without --polarity there is one object for each label"
+                       : ": one object for each; --labels no takes them as values"));
     } else {
         inputs.assumed.push_back(why + ", isovalues between them mean nothing: isoatlas objects " + shell_word(arguments.file) +
                                  reading_options(arguments) + " has one object for each");
@@ -109,6 +127,8 @@ void look(Arguments& arguments, VolumeReader& reader, const Context& context) {
 void assume_inputs(Arguments& arguments, Terminal& terminal) {
     InputChoices& inputs = arguments.inputs;
     inputs.are_labels = inputs.labels == LabelChoice::yes;
+    if (inputs.are_labels && (arguments.is_low() || arguments.polarity == PolarityChoice::both))
+        throw Error(ErrorKind::usage, {.what = "labels have no objects of low values", .next = "omit --labels yes, or --polarity"});
     const bool filters = inputs.seeks_gaussian && (arguments.verb == "convert" || arguments.verb == "table131");
     if (!(is_analysis(arguments.verb) || filters) || is_atlas(arguments.file)) return;
     try {

@@ -52,8 +52,8 @@ Colour colour_of(const ChosenObject& object, std::int64_t place) {
     return object.is_contour ? colour_of_cavity(object.number) : colour_of_object(object.number);
 }
 
-std::string names_file(const Arguments& arguments) {
-    return object_names_path(is_atlas(arguments.file) ? arguments.file : stem_of(arguments.file) + ".atlas");
+std::string names_file(const Arguments& arguments, Polarity polarity) {
+    return object_names_path(is_atlas(arguments.file) ? arguments.file : stem_of(arguments.file) + ".atlas", polarity);
 }
 
 std::vector<ObjectName> names_in(const std::string& file, const Extent& extent, Terminal& terminal) {
@@ -87,7 +87,7 @@ void ObjectDirectory::load_both() {
 }
 
 const std::vector<ObjectName>& ObjectDirectory::names() {
-    if (!names_) names_ = names_in(names_file(arguments_), source_.info().extent, terminal_);
+    if (!names_) names_ = names_in(names_file(arguments_, polarity_of(source_.info())), source_.info().extent, terminal_);
     return *names_;
 }
 
@@ -202,7 +202,7 @@ ChosenObject ObjectDirectory::numbered(const ObjectReference& reference, const s
     const Scale scale(source_.info());
     if (scale.stored(*typed) > entry.appears && source_.stored(*typed) > entry.appears) {
         not_found(arguments_, fmt::format("{} does not exist at {}", title_of(object), *typed),
-                  fmt::format("an isovalue of at most {}, where it appears", scale.text(entry.appears)),
+                  fmt::format("an isovalue of at {} {}, where it appears", scale.is_low() ? "least" : "most", scale.text(entry.appears)),
                   fmt::format("{} shows it best", reference_of(object) + "@" + object.tau_text));
     }
     return at(object, *typed);
@@ -256,12 +256,13 @@ ChosenObject ObjectDirectory::voxel_of_lines(const ObjectReference& reference) {
     const ObjectTable all = source_.objects({.top = 0, .gate = false});
     const std::vector<std::int64_t> others = lines(all);
     if (!others.empty()) return chosen(all.entries[static_cast<std::size_t>(others[0] - 1)], 0);
-    not_found(arguments_, fmt::format("no object of the table has {} as its highest voxel", reference.word), "",
+    const bool is_low = polarity_of(source_.info()) == Polarity::low;
+    not_found(arguments_, fmt::format("no object of the table has {} as its {} voxel", reference.word, is_low ? "lowest" : "highest"), "",
               fmt::format("{} lists them; {}@T is the object at T that holds this voxel", list_command(arguments_), reference.word));
 }
 
 ChosenObject ObjectDirectory::named(const ObjectReference& reference, const std::optional<double>& typed) {
-    const std::string file = names_file(arguments_);
+    const std::string file = names_file(arguments_, polarity_of(source_.info()));
     const std::vector<ObjectName> all = read_object_names(file, source_.info().extent);  // a damaged file is an error here
     const ObjectName* name = find_object_name(all, reference.word);
     if (name == nullptr) {

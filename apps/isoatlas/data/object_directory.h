@@ -34,8 +34,9 @@ struct ChosenObject {
 /// The colour that page and viewer give it; in no table: that of the place in a list.
 [[nodiscard]] Colour colour_of(const ChosenObject& object, std::int64_t place);
 
-/// The file of names of arguments.file: beside the store, or beside the one that `isoatlas view VOLUME` keeps in the current folder.
-[[nodiscard]] std::string names_file(const Arguments& arguments);
+/// The file of names of arguments.file: beside the store, or beside the one that `isoatlas view VOLUME` keeps in the current folder. Each
+/// polarity has its own.
+[[nodiscard]] std::string names_file(const Arguments& arguments, Polarity polarity);
 
 /// A damaged file is a warning, and no names.
 [[nodiscard]] std::vector<ObjectName> names_in(const std::string& file, const Extent& extent, Terminal& terminal);

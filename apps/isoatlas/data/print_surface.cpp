@@ -31,10 +31,10 @@ void print_surface(Surface& surface, PrintReport& sum, std::vector<std::string>&
 
 std::string printing_text(const PrintReport& report) {
     const auto& size = report.size_mm;
-    std::string text = fmt::format("for printing: {} of {:.4g} x {:.4g} x {:.4g} mm, {:.4g} mm3", counted(report.pieces, "piece"), size[0],
+    std::string text = fmt::format("for printing: {} of {:.4g} x {:.4g} x {:.4g} mm, {:.4g} mm³", counted(report.pieces, "piece"), size[0],
                                    size[1], size[2], report.volume);
     if (report.specks > 0)
-        text += fmt::format("; {} dropped, the largest of {:.3g} mm3", counted(report.specks, "speck"), report.largest_speck);
+        text += fmt::format("; {} dropped, the largest of {:.3g} mm³", counted(report.specks, "speck"), report.largest_speck);
     return text;
 }
 

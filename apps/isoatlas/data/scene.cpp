@@ -140,7 +140,7 @@ SceneVolume matter_of(const Arguments& arguments, Source& source, std::size_t fi
     for (std::size_t i = 0; i < matter.tents.size(); ++i) {
         OpacityTent& bump = matter.tents[i];
         const bool body = i > 0 && bump.tau == matter.tents[i - 1].tau;
-        if (!body) bump.name = fmt::format("opacity above {:.5g}", scale.reported(bump.tau));
+        if (!body) bump.name = fmt::format("opacity {} {:.5g}", scale.is_low() ? "below" : "above", scale.reported(bump.tau));
     }
     return matter;
 }

@@ -77,8 +77,9 @@ std::string Session::describe(const VolumeInfo& info, const ValueRange& range) {
         line += info.geometry.unit.empty() ? "" : " " + info.geometry.unit;
     }
     if (info.gaussian > 0) line += fmt::format("  Gaussian {:.5g}", info.gaussian);
-    return line + fmt::format("  values {} .. {}{}", scale.brief(range.low), scale.brief(range.high),
-                              info.value_unit.empty() ? "" : " " + info.value_unit);
+    const auto [low, high] = scale.ends(range.low, range.high);
+    line += fmt::format("  values {} .. {}{}", scale.brief(low), scale.brief(high), info.value_unit.empty() ? "" : " " + info.value_unit);
+    return scale.is_low() ? line + "  objects of low values" : line;
 }
 
 Corrections corrections_of(const Arguments& arguments) {
@@ -93,6 +94,8 @@ Geometry voxel_geometry() {
 }
 
 Volume shaped(Volume volume, const Arguments& arguments, const Context& context) {
+    if (polarity_of(volume.info) == Polarity::low && arguments.gaussian)  // rounding is that of the file's samples
+        return negated(shaped(negated(std::move(volume)), arguments, context));
     if (arguments.box && arguments.gaussian) return gaussian_filter(volume, *arguments.box, *arguments.gaussian, context);
     if (arguments.gaussian) return gaussian_filter(volume, *arguments.gaussian, context);
     return arguments.box ? crop(volume, *arguments.box) : std::move(volume);
@@ -121,6 +124,7 @@ Volume Session::load() {
     for (const std::string& note : volume.info.notes) terminal_.say("note: " + note);
     if (arguments_.voxel_units) volume.info.geometry = voxel_geometry();
     volume = shaped(std::move(volume), arguments_, context());
+    if (arguments_.is_low()) volume = negated(std::move(volume));
     if (!arguments_.quiet) terminal_.say(describe(volume.info, range_of(volume)));
     return volume;
 }
@@ -185,7 +189,9 @@ std::string reading_options(const Arguments& arguments) {
     if (arguments.open.follow_links) text += " --follow-links";
     if (arguments.open.unit) text += " --unit " + (arguments.open.unit->empty() ? "none" : shell_word(ascii_unit(*arguments.open.unit)));
     if (arguments.open.value_unit) text += " --value-unit " + shell_word(*arguments.open.value_unit);
-    if (arguments.missing.action == MissingPolicy::Action::below && !arguments.missing.no_data) text += " --missing below";
+    const MissingPolicy::Action missing = arguments.missing.action;
+    const bool is_beyond = missing == MissingPolicy::Action::below || missing == MissingPolicy::Action::above;
+    if (is_beyond && !arguments.missing.no_data) text += " --missing below";
     if (arguments.missing.action == MissingPolicy::Action::replace) text += fmt::format(" --missing {}", arguments.missing.value);
     if (arguments.missing.no_data) text += fmt::format(" --no-data {}", *arguments.missing.no_data);
     if (!arguments.missing.no_data && !arguments.inputs.seeks_no_data) text += " --no-data none";
@@ -193,6 +199,7 @@ std::string reading_options(const Arguments& arguments) {
     if (arguments.gaussian) text += fmt::format(" --gaussian {}", *arguments.gaussian);
     if (arguments.voxel_units) text += " --voxel";
     if (arguments.interpolant == Interpolant::faces) text += " --interpolant faces";
+    if (arguments.is_low()) text += " --polarity low";
     if (arguments.tunnel_height > 0)
         text += fmt::format(" --tunnel-height {}{}", arguments.tunnel_height, arguments.tunnel_height_in_percent ? "%" : "");
     return text;

@@ -44,7 +44,7 @@ Source::Source(const Arguments& arguments, Terminal& terminal) : arguments_(argu
         info_ = volume_->info;
         return;
     }
-    atlas_.emplace(arguments.file, AtlasOptions{.corrections = corrections_of(arguments)});
+    atlas_.emplace(arguments.file, AtlasOptions{.polarity = arguments.side(), .corrections = corrections_of(arguments)});
     check_store_options(arguments, *atlas_);
     info_ = atlas_->info();
     if (arguments.voxel_units) info_.geometry = voxel_geometry();
@@ -75,9 +75,11 @@ double Source::stored(double typed) {
     const double tau = scale.stored(typed);
     const ValueRange all = range();
     if (tau >= all.low && tau <= all.high) return tau;
+    const auto [low, high] = scale.ends(all.low, all.high);
+    const bool is_above = (tau > all.high) != scale.is_low();
     throw Error(ErrorKind::not_found, {.file = arguments_.file,
-                                       .what = fmt::format("the isovalue {} is {} every sample", typed, tau > all.high ? "above" : "below"),
-                                       .expected = fmt::format("{} .. {}", scale.text(all.low), scale.text(all.high)),
+                                       .what = fmt::format("the isovalue {} is {} every sample", typed, is_above ? "above" : "below"),
+                                       .expected = fmt::format("{} .. {}", scale.text(low), scale.text(high)),
                                        .next = "isoatlas objects " + shell_word(arguments_.file) + " lists isovalues that show something"});
 }
 
@@ -146,10 +148,22 @@ std::vector<ObjectMeasures> Source::measure(double tau, const std::vector<std::i
 }
 
 std::vector<std::int64_t> Source::samples_below(const std::vector<double>& taus) {
-    return volume_ ? isoatlas::samples_below(*volume_, taus, context()) : isoatlas::samples_below(*atlas_, taus, context());
+    const auto count = [this](const std::vector<double>& at) {
+        return volume_ ? isoatlas::samples_below(*volume_, at, context()) : isoatlas::samples_below(*atlas_, at, context());
+    };
+    if (polarity_of(info_) == Polarity::high) return count(taus);
+    std::vector<double> after = taus;  // negated samples that are not above tau are those of the file that are not below it
+    for (double& tau : after) tau = std::nextafter(tau, INFINITY);
+    std::vector<std::int64_t> below = count(after);
+    for (std::int64_t& samples : below) samples = info_.extent.voxels() - samples;
+    return below;
 }
 
-Percolation Source::percolation() { return isoatlas::percolation(volume(), analysis_options(), context()); }
+Percolation Source::percolation() {
+    const Percolation found = isoatlas::percolation(volume(), analysis_options(), context());
+    if (polarity_of(info_) == Polarity::high) return found;
+    return {.high = found.low, .low = found.high};  // of the values of the file
+}
 
 Analysis Source::analysis(bool with_zones) {
     if (atlas_ && !with_zones) return atlas_->analysis();

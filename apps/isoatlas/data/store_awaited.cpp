@@ -62,7 +62,7 @@ void build(const Arguments& arguments, Terminal& terminal, const std::string& st
 }  // namespace
 
 std::string store_to_view(const Arguments& arguments) {
-    return is_atlas(arguments.file) || arguments.file.ends_with(".atlas") ? arguments.file : stem_of(arguments.file) + ".atlas";
+    return is_atlas(arguments.file) || arguments.file.ends_with(".atlas") ? arguments.file : stem_of(arguments) + ".atlas";
 }
 
 void check_is_volume(const Arguments& arguments, const VolumeInfo& info) {
@@ -75,7 +75,7 @@ void check_is_volume(const Arguments& arguments, const VolumeInfo& info) {
 
 bool is_ready(const Arguments& arguments, Terminal& terminal, const std::string& store) {
     if (is_atlas(arguments.file)) {
-        check_store_options(arguments, Atlas(arguments.file));
+        check_store_options(arguments, Atlas(arguments.file, AtlasOptions{.polarity = arguments.side()}));
         return true;
     }
     if (arguments.read_only || build_state(store)) {  // not replaced here

@@ -98,6 +98,11 @@ std::string stem_of(const std::string& file) {
     return name;
 }
 
+std::string stem_of(const Arguments& arguments) {
+    const bool is_other_side = arguments.is_low() && !is_atlas(arguments.file);
+    return stem_of(arguments.file) + (is_other_side ? ".low" : "");
+}
+
 std::string store_beside(const std::string& page) {
     std::string store = page.substr(0, page.size() - std::string_view(".html").size());
     return store.ends_with(".atlas") ? store : store + ".atlas";
@@ -105,7 +110,7 @@ std::string store_beside(const std::string& page) {
 
 std::string store_for(const Arguments& arguments, Terminal& terminal, const std::string& store) {
     if (is_atlas(arguments.file)) {
-        check_store_options(arguments, Atlas(arguments.file));
+        check_store_options(arguments, Atlas(arguments.file, AtlasOptions{.polarity = arguments.side()}));
         return arguments.file;
     }
     if (!arguments.restart && is_usable(store, arguments, terminal)) return store;

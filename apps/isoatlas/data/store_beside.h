@@ -16,6 +16,9 @@ class Terminal;
 /// scan.nii.gz, scan.nrrd and scan.atlas all give scan.
 [[nodiscard]] std::string stem_of(const std::string& file);
 
+/// Of the file; for objects of low values scan.low: page and store of their own.
+[[nodiscard]] std::string stem_of(const Arguments& arguments);
+
 /// scan.atlas.html and scan.html stand beside scan.atlas.
 [[nodiscard]] std::string store_beside(const std::string& page);
 

@@ -39,7 +39,10 @@ std::unique_ptr<CLI::App> make_parser(const Verb& verb, Arguments& arguments, Ty
         app->add_option("REQUEST", arguments.part, "Path, such as '/api/objects?tau=300' (docs/server.md)")->type_name("");
     add_options_of(verb.name, *app, arguments, typed);
     if (reads_volumes(verb.name)) add_reading(*app, arguments, typed);
-    if (reads_volumes(verb.name) && verb.name != "info" && verb.name != "convert") add_interpolant(*app, typed);
+    if (reads_volumes(verb.name) && verb.name != "info" && verb.name != "convert") {
+        add_interpolant(*app, typed);
+        add_polarity(*app, typed);
+    }
     add_talking(*app, arguments);
     app->get_formatter()->column_width(34);
     std::string examples = "Examples:\n";
@@ -65,12 +68,23 @@ void convert_gaussian(const std::string& word, Arguments& arguments) {
     arguments.gaussian = sigma;
 }
 
-/// A no-data value that the user names is missing: without --missing, it lies below all others.
+/// A no-data value that the user names is missing: without --missing, it lies below all others (convert_polarity(): or above them).
 void convert_no_data(const std::string& word, Arguments& arguments) {
     arguments.inputs.seeks_no_data = word == "auto";
     if (word == "auto" || word == "none") return;
     arguments.missing.no_data = parse_number<double>("--no-data", word);
     if (arguments.missing.action == MissingPolicy::Action::error) arguments.missing.action = MissingPolicy::Action::below;
+}
+
+void convert_polarity(const std::string& word, Arguments& arguments) {
+    const std::vector<std::pair<std::string, PolarityChoice>> choices{
+        {"high", PolarityChoice::high}, {"low", PolarityChoice::low}, {"both", PolarityChoice::both}};
+    arguments.polarity = parse_choice<PolarityChoice>("--polarity", word, choices);
+    if (*arguments.polarity == PolarityChoice::both && arguments.verb != "objects" && arguments.verb != "build")
+        usage("isoatlas " + arguments.verb + " shows the objects of high or of low values", "choose one with --polarity",
+              "--polarity high or --polarity low");
+    MissingPolicy::Action& missing = arguments.missing.action;
+    if (missing == MissingPolicy::Action::below && arguments.is_low()) missing = MissingPolicy::Action::above;  // in no object
 }
 
 void convert(const CLI::App& app, const Typed& typed, Arguments& arguments) {
@@ -94,6 +108,7 @@ void convert(const CLI::App& app, const Typed& typed, Arguments& arguments) {
     if (given("--time-step")) arguments.open.time_step = typed.time_step;
     if (given("--missing")) arguments.missing = parse_missing(typed.missing);
     if (given("--no-data")) convert_no_data(typed.no_data, arguments);
+    if (given("--polarity")) convert_polarity(typed.polarity, arguments);
     arguments.inputs.labels = parse_choice<LabelChoice>(
         "--labels", typed.labels, {{"auto", LabelChoice::automatic}, {"yes", LabelChoice::yes}, {"no", LabelChoice::no}});
     convert_selection(given, typed.selection, arguments);

@@ -20,9 +20,10 @@ struct InputChoices {
     bool seeks_no_data = true;    ///< --no-data auto
     bool seeks_gaussian = false;  ///< --gaussian auto
     LabelChoice labels = LabelChoice::automatic;
-    bool are_labels = false;           ///< found, or said by the user
-    double noise = 0, range = 0;       ///< stored values, where smoothing could be advised
-    std::vector<std::string> assumed;  ///< sentences: what was assumed and how to undo it
+    bool are_labels = false;                      ///< found, or said by the user
+    double noise = 0, range = 0;                  ///< stored values, where smoothing could be advised
+    std::vector<std::string> assumed;             ///< sentences: what was assumed and how to undo it
+    std::optional<MissingPolicy> missing_of_low;  ///< --polarity both, where a fill value was found: of the low side
 };
 
 struct Arguments {
@@ -37,7 +38,14 @@ struct Arguments {
     std::optional<SampleBox> box;    ///< only this part of the volume
     std::optional<double> gaussian;  ///< filter first: sigma in the unit of the spacing
     InputChoices inputs;
-    bool voxel_units = false;  ///< measures in voxels, not in the units of the file
+    bool voxel_units = false;                ///< measures in voxels, not in the units of the file
+    std::optional<PolarityChoice> polarity;  ///< objects of high or low values; none: of high ones, or what a store holds
+    /// Of verbs that look at one side.
+    [[nodiscard]] std::optional<Polarity> side() const {
+        if (!polarity || *polarity == PolarityChoice::both) return std::nullopt;
+        return *polarity == PolarityChoice::low ? Polarity::low : Polarity::high;
+    }
+    [[nodiscard]] bool is_low() const { return polarity == PolarityChoice::low; }
 
     // Running and messages
     Interpolant interpolant = Interpolant::trilinear;

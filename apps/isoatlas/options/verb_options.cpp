@@ -236,6 +236,13 @@ void add_interpolant(CLI::App& app, Typed& typed) {
         ->group("Input options");
 }
 
+void add_polarity(CLI::App& app, Typed& typed) {
+    app.add_option("--polarity", typed.polarity,
+                   "Objects of high values (default), of low values (lungs, pores, channels; also where they reach the border), or both")
+        ->type_name("high|low|both")
+        ->group("Input options");
+}
+
 void add_options_of(const std::string& verb, CLI::App& app, Arguments& arguments, Typed& typed) {
     using Add = void (*)(CLI::App&, Arguments&, Typed&);
     static const std::map<std::string_view, Add> list{

@@ -10,7 +10,8 @@ namespace isoatlas::cli {
 /// Options as typed; converted after parsing, so that all messages have one form.
 struct Typed {
     std::string box, dims, type, endian, spacing, origin, missing, interpolant = "trilinear", tunnel_height, shell = "all",
-                                                                   style = "compact", boundary = "closed", detail = "events", memory, space;
+                                                                   style = "compact", boundary = "closed", detail = "events", memory, space,
+                                                                   polarity;
     std::vector<std::string> objects, contours, removed_names;
     TypedSelection selection;
     std::string unit, value_unit, gaussian, no_data, labels = "auto";
@@ -24,6 +25,7 @@ void add_talking(CLI::App& app, Arguments& arguments);
 /// How a file is read.
 void add_reading(CLI::App& app, Arguments& arguments, Typed& typed);
 void add_interpolant(CLI::App& app, Typed& typed);
+void add_polarity(CLI::App& app, Typed& typed);
 /// The options that this verb has and not all others.
 void add_options_of(const std::string& verb, CLI::App& app, Arguments& arguments, Typed& typed);
 

@@ -44,6 +44,7 @@ constexpr Advice kAdvice[] = {
     {Reason::no_value_below, "give a value instead: --missing {value}"},
     {Reason::unequal_spacing, "resample it to equal spacing first, or take the grid as it is with --voxel"},
     {Reason::not_a_store, "build one: isoatlas build VOLUME -o FILE.atlas"},
+    {Reason::polarity_not_stored, "isoatlas build VOLUME --polarity both -o FILE.atlas builds one that does"},
     {Reason::no_such_part, "isoatlas dump {file} lists the parts with their sizes"},
     {Reason::memory_budget_too_small, "give a larger --memory, or fewer --threads"},
     {Reason::no_scratch_space, "free some space, choose another folder with -o, or allow more --memory"},

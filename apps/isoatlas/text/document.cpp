@@ -80,6 +80,7 @@ Json document(const std::string& name, const VolumeInfo& info, Interpolant inter
     Json json = document(name, info);
     json["interpolant"] = name_of(interpolant);
     if (interpolant == Interpolant::trilinear) json["tunnel_height"] = info.calibration.reported_difference(tunnel_height);
+    json["polarity"] = name_of(polarity_of(info));
     json["boundary"] = boundary == Boundary::closed ? "closed" : "open";
     return json;
 }

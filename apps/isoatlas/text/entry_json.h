@@ -93,4 +93,9 @@ void add_size_and_place(Json& json, const Entry& entry, const VolumeInfo& info, 
     json["note"] = note;
 }
 
+[[nodiscard]] inline Json border_json(const BorderContact& border) {
+    if (!border.is_known()) return nullptr;
+    return {{"sides", sides_text(border)}, {"part", border.part}};
+}
+
 }  // namespace isoatlas::cli

@@ -17,7 +17,7 @@ namespace {
 
 void print_text(Terminal& terminal, const VolumeInfo& info, const BranchHierarchy& hierarchy, const Simplified& simplified) {
     const Scale scale(info);
-    Table table({{"node", true}, {"object"}, {"from"}, {"down to"}, {"voxels in zone"}, {"object voxels"}});
+    Table table({{"node", true}, {"object"}, {"from"}, {scale.way()}, {"voxels in zone"}, {"object voxels"}});
     std::map<std::int64_t, std::vector<std::int64_t>> above;
     for (std::size_t i = 0; i < simplified.nodes.size(); ++i) above[simplified.nodes[i].parent].push_back(static_cast<std::int64_t>(i));
     std::vector<std::pair<std::int64_t, std::size_t>> stack{{above[-1].front(), 0}};
@@ -25,9 +25,10 @@ void print_text(Terminal& terminal, const VolumeInfo& info, const BranchHierarch
         const auto [i, depth] = stack.back();
         stack.pop_back();
         const SimplifiedNode& node = simplified.nodes[static_cast<std::size_t>(i)];
-        table.add({fmt::format("{}{} {}", std::string(2 * depth, ' '), node.is_maximum ? "maximum" : "merge", node.event.number()),
+        table.add({fmt::format("{}{} {}", std::string(2 * depth, ' '), node.is_maximum ? scale.is_low() ? "minimum" : "maximum" : "merge",
+                               node.event.number()),
                    voxel_word(hierarchy.branches()[node.branch.index()].id), scale.brief(node.tau_high),
-                   node.parent < 0 ? "bottom" : scale.brief(node.tau_low), count_text(node.voxels), count_text(node.object_voxels)});
+                   node.parent < 0 ? scale.last() : scale.brief(node.tau_low), count_text(node.voxels), count_text(node.object_voxels)});
         const std::vector<std::int64_t>& children = above[i];
         // A chain without branches is not indented further.
         for (auto child = children.rbegin(); child != children.rend(); ++child) stack.push_back({*child, depth + (children.size() > 1)});

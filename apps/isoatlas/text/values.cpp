@@ -22,10 +22,11 @@ std::string seven_digits(double value) {
 
 std::string Scale::text(double stored) const {
     if (std::isinf(stored)) return "never";
-    if (!info_.calibration.is_identity()) return seven_digits(info_.calibration.reported(stored));
-    if (info_.type == ValueType::f32 && stored == static_cast<double>(static_cast<float>(stored)))
-        return fmt::format("{}", static_cast<float>(stored) + 0.0F);
-    return fmt::format("{}", stored + 0.0);
+    if (!info_.calibration.is_linear_identity()) return seven_digits(info_.calibration.reported(stored));
+    const double value = info_.calibration.of_file(stored);
+    if (info_.type == ValueType::f32 && value == static_cast<double>(static_cast<float>(value)))
+        return fmt::format("{}", static_cast<float>(value) + 0.0F);
+    return fmt::format("{}", value + 0.0);
 }
 
 std::string Scale::brief(double stored) const {
@@ -74,6 +75,11 @@ std::string counted(std::int64_t count, const std::string& noun, const std::stri
 
 std::string interpolant_text(const VolumeInfo& info, Interpolant interpolant, double tunnel_height) {
     return "interpolant " + describe(interpolant, info.calibration.reported_difference(tunnel_height));
+}
+
+std::string polarities_text(PolarityChoice polarities) {
+    if (polarities == PolarityChoice::high) return "";
+    return polarities == PolarityChoice::low ? ", objects of low values" : ", objects of high and of low values";
 }
 
 std::string plain_measure_unit(const VolumeInfo& info) { return measure_unit_name(info.geometry, info.extent.rank); }

@@ -1,11 +1,13 @@
 // Formats values for reading: calibrated sample values, sizes in physical units, bytes, counts.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <string>
 
 #include <isoatlas/analysis.h>
 #include <isoatlas/isovalue.h>
+#include <isoatlas/polarity.h>
 
 namespace isoatlas::cli {
 
@@ -17,6 +19,14 @@ public:
     /// The stored isovalue of a typed one: the sample value that text() prints in this form, if there is one.
     [[nodiscard]] double stored(double reported) const { return stored_isovalue(info_, reported); }
     [[nodiscard]] double reported(double stored) const { return info_.calibration.reported(stored); }
+    /// Two ends of an interval of stored values in the order of the values they stand for.
+    [[nodiscard]] std::array<double, 2> ends(double low, double high) const {
+        return is_low() ? std::array{high, low} : std::array{low, high};
+    }
+    /// Words for the way that isovalues take from where an object appears, and its end.
+    [[nodiscard]] std::string way() const { return is_low() ? "up to" : "down to"; }
+    [[nodiscard]] std::string last() const { return is_low() ? "top" : "bottom"; }
+    [[nodiscard]] bool is_low() const { return polarity_of(info_) == Polarity::low; }
 
     /// Shortest text that reads back as this value; infinities: "never".
     [[nodiscard]] std::string text(double stored) const;
@@ -40,6 +50,9 @@ private:
 
 /// "interpolant trilinear, tunnel height 0.25"; the height is given in stored values
 [[nodiscard]] std::string interpolant_text(const VolumeInfo& info, Interpolant interpolant, double tunnel_height);
+
+/// "", ", objects of low values", ", objects of high and of low values"
+[[nodiscard]] std::string polarities_text(PolarityChoice polarities);
 
 /// The unit of volumes (areas in 2D) for numbers up to `largest`: mm³, cm³, dm³, ... Multiply values by the factor.
 struct MeasureUnit {

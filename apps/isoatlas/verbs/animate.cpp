@@ -80,7 +80,7 @@ std::string part_text(std::int64_t kept, std::int64_t all, const std::string& on
 std::vector<std::string> caption(const Frame& frame, const Frame* before, const Scale& scale) {
     std::string happened;
     const auto add = [&](const std::string& what) { happened += (happened.empty() ? "" : ", ") + what; };
-    const bool falling = before == nullptr || frame.tau <= before->tau;
+    const bool falling = before == nullptr || frame.tau <= before->tau;  // of negated samples: rising, as reported
     const Census& kept = frame.kept;
     if (kept.appeared > 0) add(fmt::format("{} {}", count_text(kept.appeared), falling ? "appeared" : "vanished"));
     if (kept.merged > 0) add(fmt::format("{} {}", count_text(kept.merged), falling ? "merged" : "split off"));

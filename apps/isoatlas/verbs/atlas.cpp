@@ -46,11 +46,11 @@ std::optional<PageSmoothing> smoothing_of(const Arguments& arguments, const Volu
 }  // namespace
 
 int run_atlas(const Arguments& arguments, Terminal& terminal) {
-    const std::string page = arguments.output.empty() ? stem_of(arguments.file) + ".atlas.html" : arguments.output;
+    const std::string page = arguments.output.empty() ? stem_of(arguments) + ".atlas.html" : arguments.output;
     check_output(arguments, page, {".html"});
     const std::string store = store_for(arguments, terminal, store_beside(page));
     const bool is_volume = store != arguments.file;
-    const Atlas atlas(store, {.corrections = is_volume ? Corrections{} : corrections_of(arguments)});
+    const Atlas atlas(store, {.polarity = arguments.side(), .corrections = is_volume ? Corrections{} : corrections_of(arguments)});
     for (const std::string& note : arguments.inputs.assumed) terminal.say("note: " + note);
     PageReport report;
     {
@@ -59,7 +59,7 @@ int run_atlas(const Arguments& arguments, Terminal& terminal) {
         const std::int64_t top = arguments.top > 0 ? arguments.top : 24;
         const PageOptions options{.top = top,
                                   .top_cavities = (top + 1) / 2,
-                                  .names = names_in(object_names_path(store), atlas.info().extent, terminal),
+                                  .names = names_in(object_names_path(store, polarity_of(atlas.info())), atlas.info().extent, terminal),
                                   .source = store,
                                   .notes = notes_of(arguments, atlas),
                                   .smoothing = smoothing_of(arguments, atlas.info(), page)};

@@ -98,6 +98,7 @@ void print_report(const Arguments& arguments, Terminal& terminal, const VolumeIn
         Json json = document("build", described, atlas.interpolant(), atlas.tunnel_height());
         json["output"] = arguments.output;
         json["bytes"] = report.bytes;
+        json["polarities"] = name_of(atlas.polarities());
         json["sample_bytes"] = static_cast<std::int64_t>(raw);
         json["resumed"] = report.resumed;
         json["not_used"] = report.not_used;
@@ -108,8 +109,26 @@ void print_report(const Arguments& arguments, Terminal& terminal, const VolumeIn
     }
     terminal.out() << shown_name(arguments.output) << ": " << bytes_text(bytes) << ", " << fmt::format("{:.3g}", bytes / voxels)
                    << " bytes a voxel (" << bytes_text(raw) << " of samples), "
-                   << interpolant_text(atlas.info(), atlas.interpolant(), atlas.tunnel_height()) << '\n';
+                   << interpolant_text(atlas.info(), atlas.interpolant(), atlas.tunnel_height()) << polarities_text(atlas.polarities())
+                   << '\n';
     terminal.next("isoatlas objects " + shell_word(arguments.output));
+}
+
+/// A store has its samples once, so what lies below all others for one polarity does for the other.
+void check_missing_of_both(const Arguments& arguments) {
+    if (arguments.polarity != PolarityChoice::both) return;
+    if (arguments.inputs.missing_of_low) {
+        throw Error(ErrorKind::usage, {.file = arguments.file,
+                                       .what = fmt::format("{} looks like a fill value, and would be an object of low values",
+                                                           *arguments.inputs.missing_of_low->no_data),
+                                       .expected = "samples without fill values",
+                                       .next = "give a value for it: --missing VALUE --no-data " +
+                                               fmt::format("{}", *arguments.inputs.missing_of_low->no_data) +
+                                               ", build each polarity alone, or take it as a value: --no-data none"});
+    }
+    if (arguments.missing.action != MissingPolicy::Action::below) return;
+    throw Error(ErrorKind::usage, {.what = "--missing below would make missing samples objects of low values",
+                                   .next = "give a value: --missing VALUE, or build each polarity alone"});
 }
 
 }  // namespace
@@ -123,6 +142,7 @@ BuildOptions build_options(const Arguments& arguments, const VolumeInfo& info) {
     options.gaussian = arguments.gaussian.value_or(0);
     options.time_step = arguments.open.time_step;
     options.is_replaceable = arguments.verb != "build";
+    options.polarities = arguments.polarity.value_or(PolarityChoice::high);
     if (arguments.voxel_units) options.geometry = voxel_geometry();
     if (arguments.tunnel_height_in_percent) {
         options.tunnel_height_percent = arguments.tunnel_height;
@@ -155,6 +175,7 @@ BuildReport build_store(const Arguments& arguments, Terminal& terminal, VolumeRe
 
 int run_build(const Arguments& arguments, Terminal& terminal) {
     check_output(arguments, {".atlas"});
+    check_missing_of_both(arguments);
     if (is_atlas(arguments.file)) {
         throw Error(ErrorKind::usage,
                     {.file = arguments.file, .what = "is already a store", .expected = "a volume", .next = "name the volume file"});

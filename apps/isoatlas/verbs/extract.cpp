@@ -169,7 +169,8 @@ std::string size_text(const Counts& counts) {
 void print_text(const Arguments& arguments, Terminal& terminal, Source& source, const Written& written) {
     const std::string closed = written.counts.closed ? "closed" : "open at the border of the volume";
     const std::string unit = written.unit.empty() ? "" : ", in " + written.unit;
-    const std::string connectivity = interpolant_text(source.info(), source.interpolant(), source.tunnel_height());
+    const std::string of_low = polarity_of(source.info()) == Polarity::low ? ", of low values" : "";
+    const std::string connectivity = interpolant_text(source.info(), source.interpolant(), source.tunnel_height()) + of_low;
     if (written.has_one_tau && !arguments.split) {
         terminal.out() << shown_name(arguments.output) << ": " << size_text(written.counts) << counted(written.counts.objects, "object")
                        << ", " << counted(written.counts.contours, "contour") << ", " << closed << ", isovalue "

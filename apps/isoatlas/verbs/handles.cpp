@@ -43,7 +43,7 @@ void print_text(Terminal& terminal, Source& source, const std::vector<Handle>& h
         terminal.say(fmt::format("and {} more", count_text(static_cast<std::int64_t>(handles.size()) - shown)));
 }
 
-/// The highest voxel of --object.
+/// The highest voxel of --object (of low values: the lowest).
 VoxelId wanted_voxel(const Arguments& arguments, Source& source, Terminal& terminal) {
     const ObjectReference& reference = arguments.objects[0];
     if (reference.kind == ObjectReference::Kind::voxel) return VoxelId(reference.number);
@@ -54,12 +54,13 @@ VoxelId wanted_voxel(const Arguments& arguments, Source& source, Terminal& termi
     throw Error(ErrorKind::usage, {.what = title_of(object) + " is a cavity, and tunnels are those of objects", .next = "give an object"});
 }
 
-EventId wanted_event(const Arguments& arguments, VoxelId voxel, const Analysis& analysis) {
+EventId wanted_event(const Arguments& arguments, const Source& source, VoxelId voxel, const Analysis& analysis) {
     const bool is_voxel = voxel.number() >= 0 && voxel.number() < analysis.extent().voxels();
     const EventId event = is_voxel ? event_of_highest(analysis, voxel) : EventId::none();
     if (event.exists()) return event;
     throw Error(ErrorKind::not_found, {.file = arguments.file,
-                                       .what = fmt::format("{} is not the highest voxel of an object", voxel_word(voxel.number())),
+                                       .what = fmt::format("{} is not the {} voxel of an object", voxel_word(voxel.number()),
+                                                           polarity_of(source.info()) == Polarity::low ? "lowest" : "highest"),
                                        .expected = "an object of the table",
                                        .next = "isoatlas objects " + shell_word(arguments.file) + " lists objects"});
 }
@@ -69,7 +70,7 @@ std::vector<Handle> find_handles(const Arguments& arguments, Source& source, Ter
     const VoxelId voxel = arguments.objects.empty() ? VoxelId::none() : wanted_voxel(arguments, source, terminal);
     const Analysis analysis = source.analysis(false);
     if (!arguments.exact) return pair_handles(analysis, min);
-    const EventId event = arguments.objects.empty() ? EventId::none() : wanted_event(arguments, voxel, analysis);
+    const EventId event = arguments.objects.empty() ? EventId::none() : wanted_event(arguments, source, voxel, analysis);
     return pair_handles_exactly(source.volume(), analysis, {.min_persistence = min, .event = event}, source.context());
 }
 

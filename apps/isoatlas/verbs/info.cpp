@@ -173,11 +173,11 @@ void print_text(Terminal& terminal, const VolumeInfo& info, const Values& values
         << " voxels, " << bytes_text(static_cast<double>(info.file_bytes)) << " on disk)\n";
     print_geometry(out, info);
     const Scale scale(info);
-    if (!info.calibration.is_identity()) {
+    if (!info.calibration.is_linear_identity()) {
         out << fmt::format("calibration  value = {:.9g} * stored + {:.9g}\n", info.calibration.slope, info.calibration.intercept);
     }
     if (values.known) {
-        const bool reversed = info.calibration.slope < 0;
+        const bool reversed = (info.calibration.slope < 0) != scale.is_low();
         out << "values       " << scale.brief(reversed ? values.high : values.low) << " .. "
             << scale.brief(reversed ? values.low : values.high) << (info.value_unit.empty() ? "" : " " + info.value_unit) << '\n';
     }
@@ -205,7 +205,8 @@ int run_info(const Arguments& arguments, Terminal& terminal) {
         const Atlas atlas(arguments.file, {.corrections = corrections_of(arguments)});
         const std::array<double, 2> range = atlas.range();
         info = atlas.info();
-        info.notes.push_back("built with " + interpolant_text(info, atlas.interpolant(), atlas.tunnel_height()));
+        info.notes.push_back("built with " + interpolant_text(info, atlas.interpolant(), atlas.tunnel_height()) +
+                             polarities_text(atlas.polarities()));
         values.known = true, values.low = range[0], values.high = range[1];
         if (arguments.tau) preview = atlas.preview(Scale(info).stored(*arguments.tau));
     } else {

@@ -18,6 +18,14 @@ namespace {
 
 constexpr std::size_t kMostAtOnce = 1024;  ///< surfaces in one file, unless --object names them
 
+/// A store of objects of low values has no labels: its samples come negated.
+void check_has_labels(const Source& source) {
+    if (polarity_of(source.info()) == Polarity::low)
+        throw Error(ErrorKind::usage, {.file = source.info().path,
+                                       .what = "the store holds objects of low values, and labels have none",
+                                       .next = "name the volume file, or omit --labels yes"});
+}
+
 Json region_json(const LabelRegion& region, const VolumeInfo& info) {
     return {{"label", region.label},
             {"voxels", region.voxels},
@@ -84,6 +92,7 @@ std::vector<std::int64_t> wanted_labels(const Arguments& arguments, Source& sour
 
 int list_label_objects(const Arguments& arguments, Terminal& terminal) {
     Source source(arguments, terminal);
+    check_has_labels(source);
     const Volume& volume = source.volume();
     const LabelTable table = list_labels(volume, {.interpolant = source.interpolant()}, source.context());
     if (!arguments.json) {
@@ -100,6 +109,7 @@ int list_label_objects(const Arguments& arguments, Terminal& terminal) {
 
 int extract_label_objects(const Arguments& arguments, Terminal& terminal) {
     Source source(arguments, terminal);
+    check_has_labels(source);
     SurfaceOptions options;
     options.boundary = arguments.boundary, options.style = arguments.style, options.shell = arguments.shell;
     const std::vector<std::int64_t> labels = wanted_labels(arguments, source);

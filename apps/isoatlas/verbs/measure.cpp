@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "data/source.h"
+#include "options/object_reference.h"
 #include "text/document.h"
 #include "text/interrupt.h"
 #include "text/measures_json.h"
@@ -65,6 +66,7 @@ std::vector<double> isovalues_over(const ValueRange& range, ValueType type) {
 void measure_volume(const Arguments& arguments, Source& source, Measured& measured) {
     measured.isovalues = isovalues_over(source.range(), source.info().type);
     measured.below = source.samples_below(measured.isovalues);
+    if (polarity_of(source.info()) == Polarity::low) std::ranges::reverse(measured.isovalues), std::ranges::reverse(measured.below);
     if (measured.tau) measured.below_tau = source.samples_below({*measured.tau})[0];
     if (!arguments.no_percolation) measured.percolation = source.percolation();
 }
@@ -127,7 +129,7 @@ void print_objects(Terminal& terminal, const VolumeInfo& info, const Measured& m
     Table text(columns);
     for (std::size_t i = 0; i < static_cast<std::size_t>(shown); ++i) {
         const ObjectMeasures& object = measured.objects[i];
-        std::vector<std::string> row{fmt::format("{}", i + 1), fmt::format("{}", object.id)};
+        std::vector<std::string> row{fmt::format("{}", i + 1), voxel_word(object.id)};
         if (!measured.tau) row.push_back(scale.brief(object.tau));
         row.insert(row.end(), {measure_text(object.volume * unit.factor), measure_text(object.area), measure_text(object.feret.max),
                                measure_text(object.feret.min), fmt::format("{:.3f}", object.sphericity), measure_text(object.values.mean),

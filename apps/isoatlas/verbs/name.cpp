@@ -42,7 +42,8 @@ std::vector<Line> lines_of(ObjectDirectory& directory, const std::vector<ObjectN
 
 void print_json(const Arguments& arguments, Terminal& terminal, const Source& source, const std::vector<Line>& lines) {
     Json json = document("name", source.info());
-    json["file"] = names_file(arguments);
+    json["polarity"] = name_of(polarity_of(source.info()));
+    json["file"] = names_file(arguments, polarity_of(source.info()));
     Json& list = json["names"] = Json::array();
     for (const auto& [name, object] : lines) {
         Json item{{"name", name.name}, {"reference", reference_of(object, true)}};
@@ -90,7 +91,7 @@ int run_name(const Arguments& arguments, Terminal& terminal) {
     check_arguments(arguments);
     if (arguments.part.size() == 2) check_object_name(arguments.part[1]);
     Source source(arguments, terminal);
-    const std::string file = names_file(arguments);
+    const std::string file = names_file(arguments, polarity_of(source.info()));
     std::vector<ObjectName> names = read_object_names(file, source.info().extent);
     ObjectDirectory directory(arguments, source, terminal);
     const std::vector<ObjectName> before = names;

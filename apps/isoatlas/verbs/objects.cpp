@@ -47,6 +47,7 @@ Json entry_json(const ObjectTable& table, std::size_t i, const VolumeInfo& info,
     json["tunnels"] = entry.tunnels;
     json["cavities"] = entry.cavities;
     add_size_and_place(json, entry, info, note_of(entry, called));
+    if (scale.is_low()) json["border"] = border_json(entry.border);
     return json;
 }
 
@@ -84,11 +85,13 @@ std::string best_tau_text(const ObjectEntry& entry, const Scale& scale) {
 
 void tell_table(Terminal& terminal, Source& source, const ObjectTable& table) {
     const VolumeInfo& info = source.info();
+    const Scale scale(info);
     const auto lines = static_cast<std::int64_t>(table.entries.size());
     const std::string noise = table.noise > 0 ? fmt::format("; noise about {:.3g}", table.noise * info.calibration.slope) : "";
     terminal.say(fmt::format("{} in all, {} hidden; {} listed, some objects at several isovalues{}; {}",
-                             counted(table.branches, "maximum", "maxima"), count_text(table.branches - shown_objects(table)),
-                             counted(lines, "line"), noise, interpolant_text(info, source.interpolant(), source.tunnel_height())));
+                             scale.is_low() ? counted(table.branches, "minimum", "minima") : counted(table.branches, "maximum", "maxima"),
+                             count_text(table.branches - shown_objects(table)), counted(lines, "line"), noise,
+                             interpolant_text(info, source.interpolant(), source.tunnel_height())));
 }
 
 /// Recommended isovalues without a line of their own.
@@ -100,6 +103,13 @@ void tell_other_isovalues(Terminal& terminal, const ObjectTable& table, const st
         std::erase_if(others, [&](const RecommendedIsovalue& isovalue) { return !told.emplace(isovalue.branch_top, isovalue.tau).second; });
         tell_isovalues(terminal, called[i], others, scale);
     }
+}
+
+/// Objects of low values may reach the border; those that do not are cavities of others.
+std::string with_border(const std::string& note, const ObjectEntry& entry, const VolumeInfo& info) {
+    if (polarity_of(info) == Polarity::high) return note;
+    const std::string border = entry.border.is_known() && entry.border.sides == 0 ? "cavity" : border_text(entry.border, info.extent);
+    return note.empty() || border.empty() ? note + border : note + ", " + border;
 }
 
 void print_table_text(Terminal& terminal, const Arguments& arguments, Source& source, ObjectDirectory& directory,
@@ -121,7 +131,7 @@ void print_table_text(Terminal& terminal, const Arguments& arguments, Source& so
         row.insert(row.end(), {voxel_word(entry.id), scale.brief(entry.appears), scale.brief(entry.merges), best_tau_text(entry, scale)});
         sizes.add(row, entry.voxels, entry.measure, entry.tunnels, entry.cavities);
         const std::optional<RecommendedIsovalue> best = isovalue_of(table, entry);
-        row.insert(row.end(), {best ? name_of(best->reason) : "", note_of(entry, called)});
+        row.insert(row.end(), {best ? name_of(best->reason) : "", with_border(note_of(entry, called), entry, source.info())});
         text.add(row);
     }
     tell_table(terminal, source, table);
@@ -257,6 +267,7 @@ int list_at(const Arguments& arguments, Terminal& terminal) {
 
 int run_objects(const Arguments& arguments, Terminal& terminal) {
     if (arguments.inputs.are_labels) return list_label_objects(arguments, terminal);
+    if (arguments.polarity == PolarityChoice::both) return run_objects_of_both(arguments, terminal);
     if (arguments.tau && (arguments.selects || !arguments.curve.empty())) {
         throw Error(ErrorKind::usage, {.what = "a selection applies to the table of best isovalues, not to one isovalue",
                                        .next = "omit --tau, or the selection"});

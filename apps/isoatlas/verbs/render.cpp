@@ -32,8 +32,9 @@ Json to_json(const Arguments& arguments, Source& source, const Scene& scene, con
     Json tents = Json::array();
     const Scale scale(source.info());
     for (const OpacityTent& bump : scene.volume.tents) {
-        tents.push_back({{"low", scale.reported(bump.low)},
-                         {"high", scale.reported(bump.high)},
+        const auto [low, high] = scale.ends(bump.low, bump.high);
+        tents.push_back({{"low", scale.reported(low)},
+                         {"high", scale.reported(high)},
                          {"density", bump.density},
                          {"colour", {bump.colour.red, bump.colour.green, bump.colour.blue}}});
     }

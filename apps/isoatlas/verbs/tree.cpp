@@ -31,9 +31,13 @@ std::string interpolant_of(const Volume& volume, const Analysis& analysis) {
     return interpolant_text(volume.info, analysis.interpolant(), analysis.tunnel_height());
 }
 
+Criticality kind_of(const VolumeInfo& info, const Event& event) {
+    return polarity_of(info) == Polarity::low ? mirrored(event.kind) : event.kind;
+}
+
 void print_counts(Terminal& terminal, const Volume& volume, const Analysis& analysis) {
     std::map<Criticality, std::int64_t> kinds;
-    for (const EventId id : ids<EventId>(analysis.event_count())) ++kinds[analysis.event(id).kind];
+    for (const EventId id : ids<EventId>(analysis.event_count())) ++kinds[kind_of(volume.info, analysis.event(id))];
     Table table({{"kind", true}, {"events"}});
     for (const auto& [kind, count] : kinds) table.add({name_of(kind), count_text(count)});
     table.print(terminal);
@@ -63,14 +67,15 @@ void print_largest_zones(Terminal& terminal, const Volume& volume, const Analysi
         below[ancestor].push_back(id);
     }
     Table table(
-        {{"zones with most voxels", true}, {"from"}, {"down to"}, {"voxels in zone"}, {"object voxels"}, {"tunnels"}, {"cavities"}});
+        {{"zones with most voxels", true}, {"from"}, {scale.way()}, {"voxels in zone"}, {"object voxels"}, {"tunnels"}, {"cavities"}});
     std::vector<EventId> stack(below[EventId::none()].rbegin(), below[EventId::none()].rend());
     while (!stack.empty()) {
         const EventId id = stack.back();
         stack.pop_back();
         const Event event = analysis.event(id);
-        table.add({fmt::format("{}{} {}", std::string(2 * static_cast<std::size_t>(depth[id]), ' '), name_of(event.kind), id.number()),
-                   scale.brief(event.zone.tau_high), event.parent.exists() ? scale.brief(event.zone.tau_low) : "bottom",
+        table.add({fmt::format("{}{} {}", std::string(2 * static_cast<std::size_t>(depth[id]), ' '), name_of(kind_of(volume.info, event)),
+                               id.number()),
+                   scale.brief(event.zone.tau_high), event.parent.exists() ? scale.brief(event.zone.tau_low) : scale.last(),
                    count_text(event.zone.voxels), count_text(event.object_voxels), count_text(event.b1), count_text(event.b2)});
         const auto& children = below[id];
         stack.insert(stack.end(), children.rbegin(), children.rend());
@@ -110,12 +115,13 @@ void print_elements(Terminal& terminal, const Volume& volume, const Analysis& an
 
 void print_contours(Terminal& terminal, const Volume& volume, const Analysis& analysis) {
     const Scale scale(volume.info);
-    Table table({{"contour"}, {"from"}, {"down to"}, {"genus"}});
+    Table table({{"contour"}, {"from"}, {scale.way()}, {"genus"}});
     const std::int64_t shown = std::min(kShown, analysis.contour_arc_count());
     for (std::int64_t id = 0; id < shown; ++id) {
         const ContourArc arc = analysis.contour_arc(id);
         table.add({fmt::format("{}", id), scale.brief(arc.value_high),
-                   arc.lower == ElementId(analysis.element_count()) ? "bottom" : scale.brief(arc.value_low), fmt::format("{}", arc.genus)});
+                   arc.lower == ElementId(analysis.element_count()) ? scale.last() : scale.brief(arc.value_low),
+                   fmt::format("{}", arc.genus)});
     }
     table.print(terminal);
     print_rest(terminal, analysis.contour_arc_count(), shown);

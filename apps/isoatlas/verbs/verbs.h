@@ -21,6 +21,8 @@ int run_extract(const Arguments& arguments, Terminal& terminal);
 /// `objects` and `extract` of a label volume.
 int list_label_objects(const Arguments& arguments, Terminal& terminal);
 int extract_label_objects(const Arguments& arguments, Terminal& terminal);
+/// objects --polarity both.
+int run_objects_of_both(const Arguments& arguments, Terminal& terminal);
 int run_render(const Arguments& arguments, Terminal& terminal);
 int run_animate(const Arguments& arguments, Terminal& terminal);
 /// Build options of a volume.

@@ -56,6 +56,18 @@ std::vector<CheckResult> check_mesh(const Arguments& arguments, Json& head) {
     return verify_mesh(mesh);
 }
 
+/// Of a store of both polarities, unless one is asked for, both.
+std::vector<CheckResult> check_store(const Arguments& arguments, Source& source, const AtlasVerifyOptions& options) {
+    std::vector<CheckResult> checks = verify_atlas(source.atlas(), options, source.context());
+    if (arguments.polarity || source.atlas().polarities() != PolarityChoice::both) return checks;
+    const Atlas low(arguments.file, AtlasOptions{.polarity = Polarity::low, .corrections = corrections_of(arguments)});
+    for (CheckResult& check : verify_atlas(low, options, source.context())) {
+        check.name += "_of_low_values";
+        checks.push_back(std::move(check));
+    }
+    return checks;
+}
+
 std::string sample_text(const AtlasVerifyOptions& options) {
     const std::string isovalues = fmt::format("{} isovalues drawn with seed {} and both ends of the range", options.levels, options.seed);
     return options.full
@@ -77,8 +89,7 @@ int run_verify(const Arguments& arguments, Terminal& terminal) {
         const AtlasVerifyOptions options{.levels = arguments.levels, .full = arguments.full, .seed = arguments.seed};
         const VerifyOptions of_volume{
             .levels = arguments.levels, .interpolant = source.interpolant(), .tunnel_height = source.tunnel_height()};
-        checks = source.is_store() ? verify_atlas(source.atlas(), options, source.context())
-                                   : verify_volume(source.volume(), of_volume, source.context());
+        checks = source.is_store() ? check_store(arguments, source, options) : verify_volume(source.volume(), of_volume, source.context());
         of_what = ", " + interpolant_text(source.info(), of_volume.interpolant, of_volume.tunnel_height);
         head = document("verify", source.info(), of_volume.interpolant, of_volume.tunnel_height);
         head["what"] = source.is_store() ? "store" : "volume";

@@ -115,7 +115,7 @@ void wait_for_the_end(const Arguments& arguments, Terminal& terminal, Server& se
 int run_view(const Arguments& arguments, Terminal& terminal) {
     keep_memory_flat();
     const std::string store = store_to_view(arguments);
-    AtlasOptions options{.cache_bytes = arguments.memory};
+    AtlasOptions options{.cache_bytes = arguments.memory, .polarity = arguments.side()};
     if (store == arguments.file) options.corrections = corrections_of(arguments);
     for (const std::string& note : arguments.inputs.assumed) terminal.say("note: " + note);
     std::optional<Atlas> atlas;

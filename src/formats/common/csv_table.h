@@ -48,8 +48,8 @@ class CsvTable {
 public:
     CsvTable(ByteWriter& out, const Connectivity& connectivity, const std::string& columns) : out_(out) {
         const std::string height = connectivity.has_tunnels() ? number_text(connectivity.tunnel_height) : "";
-        last_cells_ = std::string(",") + connectivity.name() + "," + height + "\n";
-        out_.text(columns + ",interpolant,tunnel_height\n");
+        last_cells_ = std::string(",") + connectivity.name() + "," + height + (connectivity.is_low() ? ",low\n" : "\n");
+        out_.text(columns + ",interpolant,tunnel_height" + (connectivity.is_low() ? ",polarity\n" : "\n"));
     }
     [[nodiscard]] CsvRow row() const { return {out_, last_cells_}; }
 

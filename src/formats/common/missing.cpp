@@ -75,7 +75,8 @@ void MissingScan::look_at(std::span<const T> samples, std::int64_t first) {
     constexpr std::size_t kBlock = 4096;  // stays in the L1 cache for the second pass
     for (std::size_t begin = 0; begin < samples.size(); begin += kBlock) {
         const std::span<const T> block = samples.subspan(begin, std::min(kBlock, samples.size() - begin));
-        if (policy_.action == MissingPolicy::Action::below || any_missing(block)) {
+        const bool needs_extremes = policy_.action == MissingPolicy::Action::below || policy_.action == MissingPolicy::Action::above;
+        if (needs_extremes || any_missing(block)) {
             look_closely(block, first + static_cast<std::int64_t>(begin));
         }
     }
@@ -83,7 +84,7 @@ void MissingScan::look_at(std::span<const T> samples, std::int64_t first) {
 
 template <class T>
 void MissingScan::look_closely(std::span<const T> samples, std::int64_t first) {
-    T smallest = std::numeric_limits<T>::max();
+    T smallest = std::numeric_limits<T>::max(), largest = std::numeric_limits<T>::lowest();
     std::int64_t missing = 0;
     for (std::size_t i = 0; i < samples.size(); ++i) {
         if (is_missing(samples[i])) {
@@ -92,12 +93,13 @@ void MissingScan::look_closely(std::span<const T> samples, std::int64_t first) {
                        std::isfinite(static_cast<double>(samples[i])));
             }
             ++missing;
-        } else if (samples[i] < smallest) {
-            smallest = samples[i];
+        } else {
+            smallest = std::min(smallest, samples[i]), largest = std::max(largest, samples[i]);
         }
     }
     count_ += missing;
-    if (missing < static_cast<std::int64_t>(samples.size())) smallest_ = std::min(smallest_, static_cast<double>(smallest));
+    if (missing == static_cast<std::int64_t>(samples.size())) return;
+    smallest_ = std::min(smallest_, static_cast<double>(smallest)), largest_ = std::max(largest_, static_cast<double>(largest));
 }
 
 void MissingScan::look(ValueType type, std::span<const std::byte> samples, std::int64_t first) {
@@ -131,18 +133,26 @@ T MissingScan::replacement() const {
                                        .next = "check the file and the no-data value",
                                        .reason = Reason::only_missing_samples});
     }
-    const T smallest = static_cast<T>(smallest_);
-    if (smallest == std::numeric_limits<T>::lowest()) {
-        throw Error(ErrorKind::input,
-                    {.file = info_.path,
-                     .what = std::string("no ") + name_of(value_type_of<T>) + " lies below the smallest sample, " + text_of(smallest_),
-                     .expected = "room for one below all others",
-                     .next = "give a value for missing samples instead: " + text_of(smallest_),
-                     .reason = Reason::no_value_below,
-                     .value = text_of(smallest_)});
+    using Limits = std::numeric_limits<T>;
+    if (policy_.action == MissingPolicy::Action::above) {
+        const T largest = static_cast<T>(largest_);
+        if (largest == Limits::max()) no_room(std::string("no ") + name_of(value_type_of<T>) + " lies above the largest", largest_);
+        if constexpr (std::is_floating_point_v<T>) return std::nextafter(largest, Limits::infinity());
+        return static_cast<T>(largest + 1);
     }
-    if constexpr (std::is_floating_point_v<T>) return std::nextafter(smallest, -std::numeric_limits<T>::infinity());
+    const T smallest = static_cast<T>(smallest_);
+    if (smallest == Limits::lowest()) no_room(std::string("no ") + name_of(value_type_of<T>) + " lies below the smallest", smallest_);
+    if constexpr (std::is_floating_point_v<T>) return std::nextafter(smallest, -Limits::infinity());
     return static_cast<T>(smallest - 1);
+}
+
+void MissingScan::no_room(const std::string& what, double end) const {
+    throw Error(ErrorKind::input, {.file = info_.path,
+                                   .what = what + " sample, " + text_of(end),
+                                   .expected = "room for one beyond all others",
+                                   .next = "give a value for missing samples instead: " + text_of(end),
+                                   .reason = Reason::no_value_below,
+                                   .value = text_of(end)});
 }
 
 template <class T>

@@ -16,7 +16,7 @@ public:
     /// Throws Error{usage} when the replacement value cannot be stored in the type, is not finite, or is the no-data value.
     MissingScan(const VolumeInfo& info, const MissingPolicy& policy, bool calibrated);
 
-    /// Counts missing samples and keeps the smallest other one; `first` is the index of samples[0].
+    /// Counts missing samples and keeps the smallest and the largest other one; `first` is the index of samples[0].
     /// Throws Error{input} that names the first missing voxel of the slab under Action::error.
     void look(ValueType type, std::span<const std::byte> samples, std::int64_t first);
 
@@ -24,7 +24,8 @@ public:
     void calibrate(ValueType type, std::span<const std::byte> samples, const Calibration& calibration, std::span<double> out) const;
 
     /// Replaces every missing sample and adds a note with their number.
-    /// Throws Error{input} under Action::below when every sample is missing or the type has nothing below the smallest one.
+    /// Throws Error{input} under Action::below (above) when every sample is missing or the type has nothing below the smallest (above the
+    /// largest) one.
     void replace(VolumeInfo& info, std::span<std::byte> samples) const;
 
 private:
@@ -38,6 +39,7 @@ private:
     void look_at(std::span<const T> samples, std::int64_t first);
     template <class T>
     [[nodiscard]] T replacement() const;
+    [[noreturn]] void no_room(const std::string& what, double end) const;
     template <class T>
     void replace_in(std::span<T> samples) const;
     [[noreturn]] void report(std::int64_t index, double value, bool is_no_data) const;
@@ -48,6 +50,7 @@ private:
     double value_ = 0;       // of the replacement, in the units of the checked samples
     std::int64_t count_ = 0;
     double smallest_ = std::numeric_limits<double>::infinity();  // exact: every sample type fits in double
+    double largest_ = -std::numeric_limits<double>::infinity();
 };
 
 }  // namespace isoatlas

@@ -107,7 +107,12 @@ std::string place_of(const ObjectName& name) {
 
 }  // namespace
 
-std::string object_names_path(const std::string& store) { return store + ".names.json"; }
+std::string object_names_path(const std::string& store, Polarity polarity) {
+    if (polarity == Polarity::high) return store + ".names.json";
+    const std::string end = store.ends_with(".atlas") ? ".atlas" : "";
+    const std::string stem = store.substr(0, store.size() - end.size());
+    return stem + (stem.ends_with(".low") ? "" : ".low") + end + ".names.json";
+}
 
 std::vector<ObjectName> read_object_names(const std::string& path, const Extent& extent) {
     std::error_code ignored;

@@ -32,6 +32,7 @@ std::string header_words(const MeshParts& parts, const char* generator, std::str
     if (!parts.named) text += " tau " + number(first.reported_tau);
     text += std::string(" ") + connectivity.name();
     if (connectivity.has_tunnels()) text += " tunnel_height " + number(connectivity.tunnel_height);
+    if (connectivity.is_low()) text += " low";
     if (!parts.says_space()) text += " space " + one_line(parts.space);
     return parts.unit.empty() ? text : text + " unit " + one_line(parts.unit);
 }

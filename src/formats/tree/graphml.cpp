@@ -8,6 +8,7 @@ namespace {
 constexpr std::array kGraphKeys{GraphmlKey{"schema", "string", "graph"}, GraphmlKey{"generator", "string", "graph"},
                                 GraphmlKey{"interpolant", "string", "graph"}, GraphmlKey{"tunnel_height", "double", "graph"},
                                 GraphmlKey{"boundary", "string", "graph"}};
+constexpr std::array kLowKeys{GraphmlKey{"polarity", "string", "graph"}};
 
 void put_keys(ByteWriter& out, std::span<const GraphmlKey> keys) {
     for (const GraphmlKey& key : keys) {
@@ -31,12 +32,14 @@ void begin_graphml(ByteWriter& out, std::span<const GraphmlKey> keys, const char
                    const Connectivity& connectivity) {
     out.text("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<graphml xmlns=\"http://graphml.graphdrawing.org/xmlns\">\n");
     put_keys(out, kGraphKeys);
+    if (connectivity.is_low()) put_keys(out, kLowKeys);
     put_keys(out, keys);
     out.text(std::string("<graph id=\"") + graph + "\" edgedefault=\"directed\">\n");
     put_text(out, "schema", schema);
     put_text(out, "generator", kGenerator);
     put_text(out, "interpolant", connectivity.name());
     if (connectivity.has_tunnels()) put(out, "tunnel_height", connectivity.tunnel_height);
+    if (connectivity.is_low()) put_text(out, "polarity", name_of(connectivity.polarity));
     put_text(out, "boundary", "closed");
     out.text("\n");
 }

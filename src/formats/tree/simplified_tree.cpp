@@ -31,20 +31,21 @@ struct NodeView {
 
 NodeView view_of(const SimplifiedTree& tree, std::size_t i) {
     const SimplifiedNode& node = tree.simplified.nodes[i];
-    const Calibration& calibration = tree.info.calibration;
+    const auto [low, high] = tree.info.calibration.reported_interval(node.tau_low, node.tau_high);
+    const Criticality top = polarity_of(tree.info) == Polarity::low ? Criticality::minimum : Criticality::maximum;
     return {.event = node.event.number(),
             .object = tree.hierarchy.branches()[node.branch.index()].id,
             .parent = node.parent,
             .position = tree.analysis.event(node.event).position,
-            .kind = name_of(node.is_maximum ? Criticality::maximum : Criticality::merge),
-            .tau_low = calibration.reported(node.tau_low),
-            .tau_high = calibration.reported(node.tau_high),
+            .kind = name_of(node.is_maximum ? top : Criticality::merge),
+            .tau_low = low,
+            .tau_high = high,
             .voxels = node.voxels,
             .object_voxels = node.object_voxels};
 }
 
 Connectivity connectivity_of(const SimplifiedTree& tree) {
-    return {tree.analysis.interpolant(), tree.info.calibration.reported_difference(tree.analysis.tunnel_height())};
+    return connectivity_of(tree.info, tree.analysis.interpolant(), tree.analysis.tunnel_height());
 }
 
 void write_json(const SimplifiedTree& tree, const JsonStream::Output& output) {

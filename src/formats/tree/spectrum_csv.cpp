@@ -43,8 +43,7 @@ void write_spectrum_csv(Sink& sink, const VolumeInfo& info, const Spectrum& spec
         "significant_cavities,min_voxels,max_voxels,cells,facets,area,measure,object,reason,cavity\n");
     for (const SpectrumInterval& interval : spectrum.intervals) {
         out.text("interval");
-        put_real(out, info.calibration.reported(interval.low));
-        put_real(out, info.calibration.reported(interval.high));
+        for (const double end : info.calibration.reported_interval(interval.low, interval.high)) put_real(out, end);
         put_counts(out, interval.all);
         put_counts(out, interval.significant);
         out.text(",,,,,,,,,\n");

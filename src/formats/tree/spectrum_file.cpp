@@ -27,8 +27,9 @@ void put_ranges(JsonStream& json, const char* key, const CountRange& range) {
 void put_intervals(JsonStream& json, const VolumeInfo& info, const Spectrum& spectrum, const SpectrumOutput& options) {
     json.line().key("interval_count").value(spectrum.intervals.size()).line().key("intervals").begin_array();
     for (const SpectrumColumn& column : spectrum_columns(spectrum, options.max_intervals)) {
-        json.line().begin_object().key("low").value(info.calibration.reported(column.low));
-        json.key("high").value(info.calibration.reported(column.high)).key("merged").value(column.intervals);
+        const auto [low, high] = info.calibration.reported_interval(column.low, column.high);
+        json.line().begin_object().key("low").value(low);
+        json.key("high").value(high).key("merged").value(column.intervals);
         put_ranges(json, "all", column.all);
         put_ranges(json, "significant", column.significant);
         json.end_object();
@@ -69,7 +70,7 @@ void write_spectrum_json(const JsonStream::Output& output, const VolumeInfo& inf
                          const SpectrumOutput& options) {
     JsonStream json(output);
     json.begin_object().line().key("schema").value("isoatlas/spectrum/3").key("version").value(kVersion);
-    put_members(json.line(), {spectrum.interpolant, info.calibration.reported_difference(spectrum.tunnel_height)});
+    put_members(json.line(), connectivity_of(info, spectrum.interpolant, spectrum.tunnel_height));
     json.key("boundary").value("closed");
     put_volume(json, info);
     json.line().key("selected").value(spectrum.selected);

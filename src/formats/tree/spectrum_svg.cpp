@@ -36,12 +36,13 @@ template <class Number>
 PlotCurve count_curve(const std::string& name, const std::string& colour, bool thick, const VolumeInfo& info, const Spectrum& spectrum,
                       const Range& range, const Number& number) {
     PlotCurve curve{name, colour, {}, true, thick};
+    const bool is_low = polarity_of(info) == Polarity::low;
     for (const SpectrumInterval& interval : spectrum.intervals) {
-        const double low = std::isfinite(interval.low) ? info.calibration.reported(interval.low) : range.low;
+        const double low = std::isfinite(interval.low) ? info.calibration.reported(interval.low) : is_low ? range.high : range.low;
         const double high = info.calibration.reported(interval.high);
         curve.points.push_back({std::min(low, high), static_cast<double>(number(interval))});
     }
-    if (!spectrum.intervals.empty()) curve.points.push_back({info.calibration.reported(spectrum.intervals.front().high), 0});
+    if (!spectrum.intervals.empty() && !is_low) curve.points.push_back({info.calibration.reported(spectrum.intervals.front().high), 0});
     std::ranges::stable_sort(curve.points, {}, [](const std::array<double, 2>& point) { return point[0]; });
     return curve;
 }

@@ -16,10 +16,11 @@ void put_event_rows(ByteWriter& out, const TreeView& tree) {
         row.number(e.id.number())
             .real(tree.reported(e.value))
             .position(e.position)
-            .text(isoatlas::name_of(e.kind))
+            .text(isoatlas::name_of(tree.kind_of(e)))
             .number(e.parent.number(), e.parent.exists());
         row.text(list_text(e.children)).number(e.objects_in).number(e.lows_out).number(e.delta_chi);
-        row.real(tree.reported(e.zone.tau_low)).real(tree.reported(e.zone.tau_high)).number(e.zone.voxels, tree.has_zones);
+        const auto [low, high] = tree.reported(e.zone);
+        row.real(low).real(high).number(e.zone.voxels, tree.has_zones);
         row.number(e.chi).number(e.b1).number(e.b2).number(e.object_voxels, tree.has_zones).number(e.contours).text(histogram_text(genera));
     });
 }
@@ -51,7 +52,8 @@ void put_contour_rows(ByteWriter& out, const TreeView& tree) {
         const ContourArc arc = tree.analysis.contour_arc(id);
         CsvRow row = table.row();
         row.number(id).number(arc.upper.number()).number(arc.lower.number(), !tree.is_outside(arc.lower));
-        row.real(tree.reported(arc.value_high)).real(tree.reported(arc.value_low)).number(arc.genus);
+        const auto [low, high] = tree.reported(arc);
+        row.real(high).real(low).number(arc.genus);
     }
 }
 

@@ -23,8 +23,18 @@ struct TreeView {
 
     TreeView(const Volume& the_volume, const Analysis& the_analysis, const TreeOutput& the_options);
     [[nodiscard]] double reported(double stored) const { return volume.info.calibration.reported(stored); }
+    /// Both ends of the zone of an event, ascending.
+    [[nodiscard]] std::array<double, 2> reported(const ZoneRange& zone) const {
+        return volume.info.calibration.reported_interval(zone.tau_low, zone.tau_high);
+    }
+    [[nodiscard]] std::array<double, 2> reported(const ContourArc& arc) const {
+        return volume.info.calibration.reported_interval(arc.value_low, arc.value_high);
+    }
+    /// Of the values of the file.
+    [[nodiscard]] Criticality kind_of(const Event& event) const { return is_low() ? mirrored(event.kind) : event.kind; }
+    [[nodiscard]] bool is_low() const { return polarity_of(volume.info) == Polarity::low; }
     [[nodiscard]] Connectivity connectivity() const {
-        return {analysis.interpolant(), volume.info.calibration.reported_difference(analysis.tunnel_height())};
+        return connectivity_of(volume.info, analysis.interpolant(), analysis.tunnel_height());
     }
     [[nodiscard]] std::int64_t item_count() const;  ///< of the chosen detail
     [[nodiscard]] bool is_outside(ElementId element) const { return element == ElementId(analysis.element_count()); }

@@ -26,12 +26,13 @@ void put_event_nodes(ByteWriter& out, const TreeView& tree) {
         begin_node(out, e.id.number());
         put(out, "value", tree.reported(e.value));
         put(out, e.position);
-        put_text(out, "kind", isoatlas::name_of(e.kind));
+        put_text(out, "kind", isoatlas::name_of(tree.kind_of(e)));
         put(out, "objects_in", e.objects_in);
         put(out, "lows_out", e.lows_out);
         put(out, "delta_chi", e.delta_chi);
-        put(out, "tau_low", tree.reported(e.zone.tau_low));
-        put(out, "tau_high", tree.reported(e.zone.tau_high));
+        const auto [low, high] = tree.reported(e.zone);
+        put(out, "tau_low", low);
+        put(out, "tau_high", high);
         put(out, "chi", e.chi);
         put(out, "b1", e.b1);
         put(out, "b2", e.b2);
@@ -68,8 +69,9 @@ void put_contour_nodes(ByteWriter& out, const TreeView& tree) {
         const ContourArc arc = tree.analysis.contour_arc(id);
         begin_edge(out, arc.upper.number(), arc.lower.number());
         put(out, "id", id);
-        put(out, "tau_high", tree.reported(arc.value_high));
-        put(out, "tau_low", tree.reported(arc.value_low));
+        const auto [low, high] = tree.reported(arc);
+        put(out, "tau_high", high);
+        put(out, "tau_low", low);
         put(out, "genus", arc.genus);
         out.text("</edge>\n");
     }

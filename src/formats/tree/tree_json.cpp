@@ -34,7 +34,7 @@ void put_count_or_null(JsonStream& json, std::int64_t count, bool known) { known
 void put_event(JsonStream& json, const TreeView& tree, const Event& event, std::span<const GenusCount> genera) {
     json.line().begin_array().value(tree.reported(event.value));
     for (const double x : event.position) json.value(x);
-    json.value(isoatlas::name_of(event.kind));
+    json.value(isoatlas::name_of(tree.kind_of(event)));
     put_count_or_null(json, event.parent.number(), event.parent.exists());
     json.value(event.lows_out).value(event.b1).value(event.b2);
     put_count_or_null(json, event.zone.voxels, tree.has_zones);
@@ -97,7 +97,8 @@ void put_contours(JsonStream& json, const TreeView& tree) {
         const ContourArc arc = tree.analysis.contour_arc(id);
         json.line().begin_object().key("id").value(id).key("upper").value(arc.upper.number());
         put_count_or_null(json, "lower", arc.lower.number(), !tree.is_outside(arc.lower));
-        json.key("tau_high").value(tree.reported(arc.value_high)).key("tau_low").value(tree.reported(arc.value_low));
+        const auto [low, high] = tree.reported(arc);
+        json.key("tau_high").value(high).key("tau_low").value(low);
         json.key("genus").value(arc.genus).end_object();
     }
 }

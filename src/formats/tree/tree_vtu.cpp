@@ -27,6 +27,22 @@ TtkType type_of(const Element& e) {
     return e.h0 == 2 ? TtkType::saddle2 : TtkType::regular;
 }
 
+/// That of the file's values, where the trees are those of the negated samples.
+TtkType turned(TtkType type) {
+    switch (type) {
+        case TtkType::maximum: return TtkType::minimum;
+        case TtkType::minimum: return TtkType::maximum;
+        case TtkType::saddle1: return TtkType::saddle2;
+        case TtkType::saddle2: return TtkType::saddle1;
+        default: return type;
+    }
+}
+
+template <class Item>
+VtuPoint point_of(const TreeView& tree, const Item& item) {
+    return {item.position, tree.reported(item.value), tree.is_low() ? turned(type_of(item)) : type_of(item)};
+}
+
 VtuLines lines_of(const TreeView& tree) {
     VtuLines lines;
     if (tree.options.detail == TreeDetail::events) {
@@ -45,10 +61,7 @@ VtuLines lines_of(const TreeView& tree) {
 
 VtuGraph graph_of_events(const TreeView& tree) {
     const Analysis& analysis = tree.analysis;
-    const auto at = [&tree](std::int64_t id) {
-        const Event e = tree.analysis.event(EventId(id));
-        return VtuPoint{e.position, tree.reported(e.value), type_of(e)};
-    };
+    const auto at = [&tree](std::int64_t id) { return point_of(tree, tree.analysis.event(EventId(id))); };
     VtuGraph graph(analysis.event_count(), at, lines_of(tree));
     const auto add = [&](const char* name, std::int64_t Event::* number) {
         graph.point_array<std::int64_t>(name, [&analysis, number](std::int64_t id) { return analysis.event(EventId(id)).*number; });
@@ -68,10 +81,7 @@ VtuGraph graph_of_events(const TreeView& tree) {
 
 VtuGraph graph_of_elements(const TreeView& tree) {
     const Analysis& analysis = tree.analysis;
-    const auto at = [&tree](std::int64_t id) {
-        const Element e = tree.analysis.element(ElementId(id));
-        return VtuPoint{e.position, tree.reported(e.value), type_of(e)};
-    };
+    const auto at = [&tree](std::int64_t id) { return point_of(tree, tree.analysis.element(ElementId(id))); };
     VtuGraph graph(analysis.element_count(), at, lines_of(tree));
     graph.point_array<std::int32_t>("H0", [&analysis](std::int64_t id) { return analysis.element(ElementId(id)).h0; });
     graph.point_array<std::int32_t>("L0", [&analysis](std::int64_t id) { return analysis.element(ElementId(id)).l0; });

@@ -18,13 +18,14 @@ struct Meaning {
 };
 
 Meaning meaning_of(const VolumeInfo& info, const LabelOrigin& origin) {
-    const Connectivity connectivity{origin.interpolant, info.calibration.reported_difference(origin.tunnel_height)};
+    const Connectivity connectivity = connectivity_of(info, origin.interpolant, origin.tunnel_height);
+    const std::string side = connectivity.is_low() ? "low " : "";
     const std::string end = ", " + describe(connectivity.interpolant, connectivity.tunnel_height);
-    Meaning meaning{"isoatlas zones" + end, {{"labels_are", "zones"}}};
+    Meaning meaning{"isoatlas " + side + "zones" + end, {{"labels_are", "zones"}}};
     if (origin.tau) {
         const double tau = info.calibration.reported(*origin.tau);
         const std::string what = origin.cavities ? "cavities" : "objects";
-        meaning = {"isoatlas " + what + " at tau " + short_text(tau) + end, {{"labels_are", what}, {"tau", number_text(tau)}}};
+        meaning = {"isoatlas " + side + what + " at tau " + short_text(tau) + end, {{"labels_are", what}, {"tau", number_text(tau)}}};
     }
     for (const auto& pair : key_values(connectivity)) meaning.pairs.push_back(pair);
     return meaning;

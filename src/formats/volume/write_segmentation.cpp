@@ -11,13 +11,14 @@
 #include "formats/common/file_access.h"
 #include "formats/common/text.h"
 #include "formats/volume/label_samples.h"
+#include "isoatlas/polarity.h"
 #include "isoatlas/segmentation.h"
 
 namespace isoatlas {
 
 namespace {
 
-constexpr std::string_view kTableHeader = "number,name,red,green,blue,isovalue,voxels\n";
+constexpr std::string_view kTableHeader = "number,name,red,green,blue,isovalue,voxels";  // of low values one more
 
 /// First and last voxel along each axis; low above high: none.
 struct Box {
@@ -96,7 +97,8 @@ std::string extent_text(const Box& box) {
     return text;
 }
 
-KeyValues slicer_pairs(std::span<const Segment> segments, const std::vector<Box>& boxes) {
+KeyValues slicer_pairs(std::span<const Segment> segments, const std::vector<Box>& boxes, Polarity polarity) {
+    const std::string side = polarity == Polarity::low ? "isoatlas.polarity:low|" : "";
     KeyValues pairs;
     for (std::size_t i = 0; i < segments.size(); ++i) {
         const Segment& segment = segments[i];
@@ -112,7 +114,7 @@ KeyValues slicer_pairs(std::span<const Segment> segments, const std::vector<Box>
         pairs.emplace_back(key + "Layer", "0");
         pairs.emplace_back(key + "Extent", extent_text(boxes[i]));
         pairs.emplace_back(key + "Tags", "isoatlas.isovalue:" + number_text(segment.isovalue) + "|isoatlas.number:" + number +
-                                             "|isoatlas.voxels:" + std::to_string(segment.voxels) + "|");
+                                             "|isoatlas.voxels:" + std::to_string(segment.voxels) + "|" + side);
     }
     pairs.emplace_back("Segmentation_ContainedRepresentationNames", "Binary labelmap|");
     pairs.emplace_back("Segmentation_MasterRepresentation", "Binary labelmap");
@@ -127,12 +129,13 @@ std::string csv_cell(const std::string& text) {
     return cell + "\"";
 }
 
-std::string table_text(std::span<const Segment> segments) {
-    std::string text(kTableHeader);
+std::string table_text(std::span<const Segment> segments, Polarity polarity) {
+    const bool is_low = polarity == Polarity::low;
+    std::string text = std::string(kTableHeader) + (is_low ? ",polarity\n" : "\n");
     for (const Segment& segment : segments) {
         text += std::to_string(segment.number) + "," + csv_cell(name_of_segment(segment));
         for (const std::uint8_t channel : segment.colour) text += "," + std::to_string(channel);
-        text += "," + number_text(segment.isovalue) + "," + std::to_string(segment.voxels) + "\n";
+        text += "," + number_text(segment.isovalue) + "," + std::to_string(segment.voxels) + (is_low ? ",low\n" : "\n");
     }
     return text;
 }
@@ -175,13 +178,16 @@ void write_labels_of(Sink& sink, std::span<const std::uint32_t> labels, std::spa
     VolumeInfo header;
     header.extent = info.extent;
     header.geometry = info.geometry;
-    header.description = "isoatlas segments";
+    const bool is_low = polarity_of(info) == Polarity::low;
+    header.description = is_low ? "isoatlas low segments" : "isoatlas segments";
     header.type = label_type(labels);
     const SampleFeed feed = label_feed(labels, header.type);
-    if (!is_slicers(sink.name())) return write_label_file(sink, header, feed, {{"labels_are", "segments"}});
+    KeyValues meaning{{"labels_are", "segments"}};
+    if (is_low) meaning.emplace_back("polarity", name_of(Polarity::low));
+    if (!is_slicers(sink.name())) return write_label_file(sink, header, feed, meaning);
     header.extent.rank = 3;  // Slicer knows no 2D segmentation
     header.geometry = turned_to(info.geometry, "LPS");
-    write_nrrd(sink, header, feed, Packing::gzip, slicer_pairs(segments, boxes));
+    write_nrrd(sink, header, feed, Packing::gzip, slicer_pairs(segments, boxes, polarity_of(info)));
 }
 
 }  // namespace
@@ -200,7 +206,7 @@ std::vector<std::string> write_segmentation(const std::string& path, std::span<c
     if (!is_slicers(path)) check_table(table_path(path));
     AtomicFile file(path);
     write_labels_of(file, labels, segments, info);
-    if (!is_slicers(path)) table.emplace(table_path(path)).write(table_text(segments));
+    if (!is_slicers(path)) table.emplace(table_path(path)).write(table_text(segments, polarity_of(info)));
     file.commit();
     if (table) table->commit();
     return warnings_of(path, info.geometry);

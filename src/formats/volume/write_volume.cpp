@@ -3,6 +3,7 @@
 #include "formats/common/text.h"
 #include "formats/common/volume_file.h"
 #include "isoatlas/output.h"
+#include "isoatlas/polarity.h"
 
 namespace isoatlas {
 namespace {
@@ -48,9 +49,13 @@ SampleFeed feed_of(const Volume& volume) {
 
 }  // namespace
 
-void write_volume(Sink& sink, const Volume& volume) { checked_writer(sink.name(), volume)(sink, volume.info, feed_of(volume)); }
+void write_volume(Sink& sink, const Volume& volume) {
+    if (polarity_of(volume.info) == Polarity::low) return write_volume(sink, negated(volume));
+    checked_writer(sink.name(), volume)(sink, volume.info, feed_of(volume));
+}
 
 void write_volume(const std::string& path, const Volume& volume) {
+    if (polarity_of(volume.info) == Polarity::low) return write_volume(path, negated(volume));
     const Writer write = checked_writer(path, volume);
     if (ends_with_ignoring_case(path, ".raw")) return write_raw(path, volume.info, feed_of(volume));
     AtomicFile file(path);

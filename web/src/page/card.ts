@@ -32,7 +32,7 @@ export function card(page: Page, i: number, open: (i: number) => void): HTMLElem
     html("dd", {}, value(entry.tau), reason ? html("span", { class: "why" }, ` (${reason})`) : null),
     ...alsoAt(page, i),
     html("dt", {}, "exists"),
-    html("dd", {}, rangeOf(branchOf(page, entry.branch))),
+    html("dd", {}, rangeOf(branchOf(page, entry.branch), page)),
     html("dt", {}, "size"),
     html("dd", {}, volume(entry.measure, page.volume.unit)),
     html("dt", {}, "topology"),

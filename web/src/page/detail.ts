@@ -96,7 +96,7 @@ export class Detail {
     const grows = branch.side === "cavity" ? " and grows with the isovalue" : "";
     const end =
       branch.merges === null
-        ? `${appears} and never merges: it exists at every lower isovalue.`
+        ? `${appears} and never merges: it exists at every ${page.polarity === "low" ? "higher" : "lower"} isovalue.`
         : `${appears}${grows}. At ${value(branch.merges)} it merges into ${into}.`;
     return `${end} ${shape}`;
   }
@@ -132,7 +132,7 @@ export class Detail {
     const more = branch.isovalues ?? [];
     if (more.length > 0) facts.push(["other good isovalues", more.map((advice) => this.advice(advice))]);
     facts.push(
-      ["exists", [rangeOf(branch)]],
+      ["exists", [rangeOf(branch, page)]],
       ["size", [volume(entry.measure, page.volume.unit), page.volume.unit === null ? "" : `, ${count(entry.voxels)} voxels`]],
       ["contrast × size", [value(branch.hypervolume)]],
       ["id", [voxelWord(entry.id)]],

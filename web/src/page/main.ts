@@ -17,6 +17,7 @@ import "./page.css";
 
 function about(page: Page): HTMLElement {
   const { volume } = page;
+  const side = page.polarity === "low" ? " Objects of low values; cavities are what they enclose." : "";
   const spacing = volume.spacing && volume.unit ? `, voxels of ${volume.spacing.map(value).join(" × ")} ${volume.unit}` : "";
   const unit = volume.valueUnit ? ` ${volume.valueUnit}` : "";
   const range =
@@ -26,7 +27,7 @@ function about(page: Page): HTMLElement {
     "header",
     { class: "about" },
     html("h1", {}, volume.name),
-    html("p", {}, `${volume.size.join(" × ")} samples, ${volume.type}, ${range}${noise}${spacing}.`),
+    html("p", {}, `${volume.size.join(" × ")} samples, ${volume.type}, ${range}${noise}${spacing}.${side}`),
     ...verdict(page).map((words) => html("p", {}, words)),
     ...(page.notes ?? []).map((words) => html("p", { class: "assumed" }, `Note: ${words}.`)),
     ...smoothing(page),
@@ -74,7 +75,8 @@ function heading(page: Page): string {
 
 /** What the order of the cards means. */
 function explanation(page: Page): string {
-  const cavities = hasCavities(page) ? " Cavities are enclosed regions of lower values, drawn as the surface around them." : "";
+  const side = page.polarity === "low" ? "higher" : "lower";
+  const cavities = hasCavities(page) ? ` Cavities are enclosed regions of ${side} values, drawn as the surface around them.` : "";
   return `Most important first, by contrast × size: how much its values differ from those around it, summed over its volume.${cavities}`;
 }
 

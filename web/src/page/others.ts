@@ -7,7 +7,7 @@ import { branchOf, type Branch, type Page } from "../shared/page";
 
 const maxRows = 100;
 
-/** An isovalue just above its merge, where the object has nearly its largest size. */
+/** An isovalue next to its merge, where the object has nearly its largest size. */
 export function largestAt(branch: Branch): number {
   const end = branch.merges ?? branch.appears;
   return end + (branch.appears - end) / 64;
@@ -18,7 +18,7 @@ function row(page: Page, branch: Branch): HTMLElement {
     "tr",
     {},
     html("th", { scope: "row" }, branch.number ? String(branch.number) : voxelWord(branch.id)),
-    html("td", {}, rangeOf(branch)),
+    html("td", {}, rangeOf(branch, page)),
     html("td", {}, volume(branch.measure, page.volume.unit)),
     html("td", {}, value(branch.hypervolume)),
     html("td", {}, branch.significant ? "significant" : "noise level or very small"),
@@ -31,7 +31,8 @@ export function others(page: Page, branches: number[]): HTMLElement | null {
   if (branches.length === 0) return null;
   const rows = branches.slice(0, maxRows).map((b) => row(page, branchOf(page, b)));
   const heads = ["object", "exists", "size", "contrast × size", "rating", "largest at"].map((head) => html("th", { scope: "col" }, head));
-  const line = `isoatlas extract ${page.volume.name}.atlas --object OBJECT@LARGEST -o object.ply`;
+  const side = page.polarity === "low" ? " --polarity low" : "";
+  const line = `isoatlas extract ${page.volume.name}.atlas${side} --object OBJECT@LARGEST -o object.ply`;
   return html(
     "details",
     { class: "panel others" },

@@ -41,9 +41,9 @@ export function anchorOf(page: Page, i: number): string {
 }
 
 /** The isovalues between its appearance and its merge. */
-export function rangeOf(branch: Branch): string {
+export function rangeOf(branch: Branch, page?: Page): string {
   const first = value(branch.appears);
-  if (branch.merges === null) return `from ${first} downwards, never merges`;
+  if (branch.merges === null) return `from ${first} ${page?.polarity === "low" ? "upwards" : "downwards"}, never merges`;
   const ends = [branch.merges, branch.appears].sort((p, q) => p - q).map(value);
   return ends.join(" to ");
 }

@@ -1,5 +1,5 @@
 // Orders in which entries are listed.
-import { branchOf, type Branch, type Entry, type Page } from "./page";
+import { branchOf, endOfBranch, type Branch, type Entry, type Page } from "./page";
 
 export const orders: [string, (page: Page, p: Entry, q: Entry) => number][] = [
   ["rank", (page, p, q) => byRank(branchOf(page, p.branch), branchOf(page, q.branch))],
@@ -18,5 +18,5 @@ export function byRank(p: Branch, q: Branch): number {
 
 function length(page: Page, entry: Entry): number {
   const branch = branchOf(page, entry.branch);
-  return Math.abs(branch.appears - (branch.merges ?? page.axis.low));
+  return Math.abs(branch.appears - endOfBranch(page, branch));
 }

@@ -4,7 +4,7 @@ import { Axis, axisName, drawingWidth, drawTicks, histogramPath } from "./axis";
 import { svg } from "./dom";
 import { value } from "./format";
 import { describe, entriesOf, furtherIsovalues, isCavity, nameOf, numberOf } from "./names";
-import { branchOf, entryOf, type Page } from "./page";
+import { branchOf, endOfBranch, entryOf, type Page } from "./page";
 
 const head = 90;
 const neutral = "var(--soft)";
@@ -73,7 +73,7 @@ function branchLines(page: Page, kept: Set<number>, b: number, axis: Axis, y: (b
   const branch = branchOf(page, b);
   const [first] = entriesOf(page, b);
   const stroke = first === undefined ? neutral : entryOf(page, first).colour;
-  const end = axis.x(branch.merges ?? page.axis.low);
+  const end = axis.x(endOfBranch(page, branch));
   const kind = first === undefined ? "branch thin" : branch.side === "cavity" ? "branch cavity" : "branch";
   const lines = [
     svg("line", { class: kind, "data-branch": b, x1: end, x2: axis.x(branch.appears), y1: y(b), y2: y(b), style: `--colour: ${stroke}` }),
@@ -141,7 +141,7 @@ export function rangeBar(page: Page, i: number): SVGSVGElement {
     const [a, b] = [axis.x(from), axis.x(to)].sort((p, q) => p - q) as [number, number];
     drawing.append(svg("rect", { class: kind, x: a, y, width: Math.max(b - a, 2), height: thick }));
   };
-  bar(branch.merges ?? page.axis.low, branch.appears, "whole", 33, 4);
+  bar(endOfBranch(page, branch), branch.appears, "whole", 33, 4);
   bar(entry.low, entry.high, "stable", 31, 8);
   for (const { tau } of furtherIsovalues(page, i)) drawing.append(svg("path", { class: "further", d: `M${axis.x(tau)} 26V40` }));
   drawing.append(

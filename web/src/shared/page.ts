@@ -162,6 +162,8 @@ export interface Page {
   /** offered where the noise is strong: its part of the range of values, and the command that makes the page of the filtered volume */
   smoothing?: { noisePart: number; sigma: number; command: string } | null;
   interpolant: string;
+  /** objects of high values, or of low ones: those appear at their lowest value and merge at a higher one; absent: high */
+  polarity?: "high" | "low";
   found: { objects: Found; cavities: Found };
   /** bend: null for a linear axis; else equal steps of asinh((value - low) / bend) */
   axis: { low: number; high: number; bend: number | null };
@@ -190,4 +192,10 @@ export function branchOf(page: Page, b: number): Branch {
   const branch = page.branches[b];
   if (!branch) throw new Error(`no branch ${b}`);
   return branch;
+}
+
+/** Where the isovalues of a branch end that never merges: the end of the axis on the side of its merges. */
+export function endOfBranch(page: Page, branch: Branch): number {
+  const grows = (page.polarity === "low") !== (branch.side === "cavity");
+  return branch.merges ?? (grows ? page.axis.high : page.axis.low);
 }

@@ -46,6 +46,13 @@ TEST_F(ObjectNames, AreReadAsWritten) {
     EXPECT_FALSE(std::filesystem::exists(path_));
 }
 
+TEST_F(ObjectNames, LieBesideTheStoreForEachPolarity) {
+    EXPECT_EQ(object_names_path("a/scan.atlas"), "a/scan.atlas.names.json");
+    EXPECT_EQ(object_names_path("a/scan.atlas", Polarity::low), "a/scan.low.atlas.names.json");
+    EXPECT_EQ(object_names_path("a/scan.low.atlas", Polarity::low), "a/scan.low.atlas.names.json");
+    EXPECT_EQ(object_names_path("scan", Polarity::low), "scan.low.names.json");
+}
+
 TEST_F(ObjectNames, OfAnotherVolumeOrDamagedAreReported) {
     write_object_names(path_, extent_, names_);
     std::string text;

@@ -1,6 +1,6 @@
 // Entries of a scene: entry i of the page, or the whole isosurface (-1).
 import { isCavity, nameOf } from "../../shared/names";
-import { branchOf, entryOf, type Branch, type Page } from "../../shared/page";
+import { branchOf, endOfBranch, entryOf, type Branch, type Page } from "../../shared/page";
 import type { SurfaceTarget } from "./api";
 import type { Shown } from "../state/state";
 
@@ -41,5 +41,5 @@ export function branchOfShown(page: Page, i: number): Branch | null {
 export function ownRange(page: Page, i: number): [number, number] {
   const branch = branchOfShown(page, i);
   if (!branch) return [page.axis.low, page.axis.high];
-  return [branch.merges ?? page.axis.low, branch.appears].sort((p, q) => p - q) as [number, number];
+  return [endOfBranch(page, branch), branch.appears].sort((p, q) => p - q) as [number, number];
 }

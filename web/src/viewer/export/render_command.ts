@@ -51,10 +51,10 @@ function itemOf(page: Page, { entry, tau, walls }: Shown): [option: string, what
   return [walls === "cavities" ? "--cavities" : "--object", what];
 }
 
-/** The store, as in the commands of the page. */
+/** The store, as in the commands of the page; one of both polarities with the option of this one. */
 export function storeOf(page: Page): string {
   const line = page.entries.flatMap((entry) => entry.commands)[0]?.line ?? "";
-  return /^isoatlas \w+ ('[^']*'|\S+)/.exec(line)?.[1] ?? `'${page.volume.name}.atlas'`;
+  return /^isoatlas \w+ ((?:'[^']*'|\S+)(?: --polarity low)?)/.exec(line)?.[1] ?? `'${page.volume.name}.atlas'`;
 }
 
 function plane(normal: readonly number[]): string {

@@ -33,7 +33,7 @@ export function card(page: Page, i: number, selector: ObjectSelector, pictures: 
   const picture = pictures.placeOf(i);
   picture.addEventListener("click", (event) => choose(event, i, selector));
   const branch = branchOfShown(page, i);
-  const bar = branch ? html("div", { class: "bar", title: `exists: ${rangeOf(branch)}` }, rangeBar(page, i)) : null;
+  const bar = branch ? html("div", { class: "bar", title: `exists: ${rangeOf(branch, page)}` }, rangeBar(page, i)) : null;
   const add = html("label", { class: "add" }, box);
   const element = html("li", { class: "card", style: `--colour:${colourOf(page, i)}` }, picture, bar, add, button);
   return { element, box, button };

@@ -74,7 +74,7 @@ export class ObjectPanel {
     const branch = branchOfShown(page, i);
     const more = (branch?.isovalues ?? []).slice(0, MAX_LINKS);
     const facts: Fact[] = [
-      ["exists", branch ? [`${rangeOf(branch)}${unitOf(page.volume.valueUnit)}`] : []],
+      ["exists", branch ? [`${rangeOf(branch, page)}${unitOf(page.volume.valueUnit)}`] : []],
       ["best isovalue", [this.place(entry.tau, entry.why), entry.why ? `: ${entry.why}` : ""]],
       ["other good isovalues", more.flatMap(({ tau, why }, n) => [n > 0 ? ", " : "", this.place(tau, why)])],
     ];

@@ -76,8 +76,9 @@ export class VolumeTool {
 
   private describe({ size, step }: CoarseVolume, tents: OpacityTent[]): void {
     const uniqueTents = tents.filter((tent, i) => tents.findIndex(({ tau }) => tau === tent.tau) === i);
+    const side = this.context.page.polarity === "low" ? "below" : "above";
     const item = ({ tau, colour }: OpacityTent): HTMLElement =>
-      html("span", {}, html("span", { class: "swatch", style: `background:${colour}` }), ` above ${value(tau)}`);
+      html("span", {}, html("span", { class: "swatch", style: `background:${colour}` }), ` ${side} ${value(tau)}`);
     this.legend.replaceChildren(...uniqueTents.map(item));
     const means = step === 1 ? "every sample" : `means of ${step} × ${step} × ${step} samples`;
     this.about.textContent = `${size.map(count).join(" × ")}: ${means}, 8 bits each`;
