@@ -55,24 +55,13 @@ std::optional<Geometry> from_sform(const NiftiHeader& header, int rank) {
 
 double usable_spacing(double value) { return std::isfinite(value) && std::abs(value) > kSmallest ? std::abs(value) : 0; }
 
-/// The quaternion (a, b, c, d) with a >= 0 is of unit length; pixdim[0] < 0 mirrors the third axis.
 std::optional<Geometry> from_qform(const NiftiHeader& header, int rank) {
-    double b = header.quaternion[0], c = header.quaternion[1], d = header.quaternion[2];
-    const double squares = b * b + c * c + d * d;
-    if (!std::isfinite(squares)) return std::nullopt;
-    if (squares > 1) {
-        const double length = std::sqrt(squares);
-        b /= length, c /= length, d /= length;
-    }
-    const double a = squares > 1 ? 0 : std::sqrt(1 - squares);
-    const double mirror = header.pixdim[0] < 0 ? -1 : 1;
-    std::array<Vec3, 3> columns{{{a * a + b * b - c * c - d * d, 2 * (b * c + a * d), 2 * (b * d - a * c)},
-                                 {2 * (b * c - a * d), a * a + c * c - b * b - d * d, 2 * (c * d + a * b)},
-                                 {2 * (b * d + a * c), 2 * (c * d - a * b), a * a + d * d - b * b - c * c}}};
+    const std::optional<std::array<Vec3, 3>> rotation = rotation_of_qform(header.quaternion, header.pixdim[0] < 0);
+    if (!rotation) return std::nullopt;
+    std::array<Vec3, 3> columns = *rotation;
     for (int axis = 0; axis < 3; ++axis) {
         double spacing = usable_spacing(header.pixdim[static_cast<std::size_t>(axis) + 1]);
         if (spacing == 0) spacing = 1;
-        if (axis == 2) spacing *= mirror;
         for (double& part : columns[axis]) part *= spacing;
     }
     return from_columns(columns, header.offset, rank);
@@ -117,6 +106,22 @@ Geometry nifti_geometry(const NiftiHeader& header, int rank, std::vector<std::st
     const int unit = header.units & 7;
     geometry.unit = unit <= 3 ? kUnit[unit] : "";
     return geometry;
+}
+
+std::optional<std::array<Vec3, 3>> rotation_of_qform(const Vec3& quaternion, bool is_mirrored) {
+    double b = quaternion[0], c = quaternion[1], d = quaternion[2];
+    const double squares = b * b + c * c + d * d;
+    if (!std::isfinite(squares)) return std::nullopt;
+    if (squares > 1) {
+        const double length = std::sqrt(squares);
+        b /= length, c /= length, d /= length;
+    }
+    const double a = squares > 1 ? 0 : std::sqrt(1 - squares);
+    std::array<Vec3, 3> columns{{{a * a + b * b - c * c - d * d, 2 * (b * c + a * d), 2 * (b * d - a * c)},
+                                 {2 * (b * c - a * d), a * a + c * c - b * b - d * d, 2 * (c * d + a * b)},
+                                 {2 * (b * d + a * c), 2 * (c * d - a * b), a * a + d * d - b * b - c * c}}};
+    for (double& part : columns[2]) part *= is_mirrored ? -1 : 1;
+    return columns;
 }
 
 std::optional<NiftiRotation> nifti_rotation(const Mat3& direction) {

@@ -61,7 +61,7 @@ struct Contents {
     std::array<std::int64_t, 8> dim{};
     std::array<double, 8> pixdim{};
     int space_code = 0;  ///< of the sform
-    int qform_code = 0;  ///< 0 for axes that are not perpendicular: they have no quaternion
+    int qform_code = 0;  ///< 0: the sform alone, for axes that no quaternion gives, or none of float32 precisely
     int unit = 0;
     Vec3 quaternion{};  ///< b, c, d; pixdim[0] is the sign of the third axis
     std::array<std::array<double, 4>, 3> rows{};
@@ -183,6 +183,24 @@ bool float_is_enough(const Contents& contents) {
     return true;
 }
 
+/// Whether a quaternion of float32 places every sample within a two-thousandth of a voxel.
+bool float_quaternion_is_enough(const Contents& contents) {
+    Vec3 quaternion = contents.quaternion;
+    for (double& part : quaternion) part = static_cast<double>(static_cast<float>(part));
+    const std::optional<std::array<Vec3, 3>> columns = rotation_of_qform(quaternion, contents.pixdim[0] < 0);
+    if (!columns) return false;
+    const double smallest = *std::min_element(contents.pixdim.begin() + 1, contents.pixdim.begin() + 4);
+    for (std::size_t row = 0; row < 3; ++row) {
+        double error = 0;
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            const double step = (*columns)[axis][row] * contents.pixdim[axis + 1];
+            error += std::abs(step - contents.rows[row][axis]) * static_cast<double>(contents.dim[axis + 1]);
+        }
+        if (!(error <= 5e-4 * smallest)) return false;
+    }
+    return true;
+}
+
 /// NIfTI-1 holds 16-bit sizes and 32-bit floats; rounding is fine, infinity and zero are not.
 bool needs_version_2(const Contents& contents) {
     const auto survives = [](double x) { return x == 0 || (std::isfinite(static_cast<float>(x)) && static_cast<float>(x) != 0); };
@@ -194,8 +212,10 @@ bool needs_version_2(const Contents& contents) {
 }  // namespace
 
 void write_nifti(Sink& sink, const VolumeInfo& info, const SampleFeed& samples, Packing packing) {
-    const Contents contents = contents_of(info);
-    const FieldWriter header = needs_version_2(contents) ? header_2(contents, info.type) : header_1(contents, info.type);
+    Contents contents = contents_of(info);
+    const bool is_version_2 = needs_version_2(contents);
+    if (!is_version_2 && contents.qform_code != 0 && !float_quaternion_is_enough(contents)) contents.qform_code = 0;
+    const FieldWriter header = is_version_2 ? header_2(contents, info.type) : header_1(contents, info.type);
     if (packing == Packing::gzip) {
         GzipStream stream(sink);
         stream.write(header.bytes());
