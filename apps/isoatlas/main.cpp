@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "data/assume_inputs.h"
+#include "data/sides.h"
 #include "options/arguments.h"
 #include "text/failure.h"
 #include "text/interrupt.h"
@@ -41,6 +42,7 @@ int run(const std::vector<std::string>& words, Terminal& terminal) {
         terminal.out() << parsed.text;
     } else {
         assume_inputs(arguments, terminal);
+        arguments = with_sides(arguments);
         code = find_verb(arguments.verb)->run(arguments, terminal);
     }
     terminal.finish();

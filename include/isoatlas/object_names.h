@@ -33,7 +33,7 @@ struct ObjectName {
 void write_object_names(const std::string& path, const Extent& extent, std::span<const ObjectName> names);
 
 /// A name is UTF-8 of at most 100 bytes without control characters, '@', ',' and '/', does not begin with '-' or a blank nor end with one,
-/// and is not taken for a reference: a number, or c or v and a number. Throws Error{usage}.
+/// and is not taken for a reference: a number, or c or v and a number, also with low before it. Throws Error{usage}.
 void check_object_name(const std::string& name);
 
 /// Gives an object a name, instead of the one it has. Throws Error{usage} when the name is invalid or another object has it; the message

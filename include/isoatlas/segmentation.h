@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "isoatlas/volume.h"
+#include "isoatlas/polarity.h"
 
 namespace isoatlas {
 
@@ -19,6 +19,7 @@ struct Segment {
     std::array<std::uint8_t, 3> colour;  ///< red, green, blue: sRGB
     double isovalue;                     ///< reported
     std::int64_t voxels;
+    Polarity polarity = Polarity::high;  ///< low: of a volume that is not negated, an object of low values
 };
 
 /// Labels of a volume with what each label is: .seg.nrrd (segments with name, colour, isovalue as 3D Slicer reads them); .nrrd, .nii,

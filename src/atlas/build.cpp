@@ -34,7 +34,19 @@ constexpr PhasePlan<8> kBuildPhases{{"read", "classify", "basins", "sort", "tree
 constexpr const char* kTrees = "trees";
 constexpr const char* kZones = "zones";
 
-/// Progress of a part of the build, numbered as phases of the whole.
+/// Between "read" and "pack", once for each polarity.
+constexpr int kRepeated = kBuildPhases.count() - 2;
+
+/// Numbered over all passes: pass 0 of n has the phases 1 to kRepeated.
+Progress numbered(const Progress& progress, int pass, int passes) {
+    Progress whole = progress;
+    const bool is_packing = progress.phase_index == kBuildPhases.count() - 1;
+    if (progress.phase_index > 0) whole.phase_index += kRepeated * (is_packing ? passes - 1 : pass);
+    whole.phase_count += kRepeated * (passes - 1);
+    return whole;
+}
+
+/// Progress of a part of the build, numbered as phases of one pass.
 Context shifted(const Context& context, int by, const Extent& extent) {
     Context part = context;
     if (!context.progress) return part;
@@ -120,9 +132,11 @@ private:
 
 class Build {
 public:
-    Build(const std::string& path, bool restart, const Context& context) : path_(path), folder_(path, restart), context_(context) {
+    Build(const std::string& path, bool restart, PolarityChoice polarities, const Context& context)
+        : path_(path), folder_(path, restart), context_(context), passes_(polarities == PolarityChoice::both ? 2 : 1) {
         context_.environment = nullptr;  // that of this thread: with the budget of the build
-        context_.progress = [this, told = context.progress](const Progress& progress) {
+        context_.progress = [this, told = context.progress](const Progress& of_pass) {
+            const Progress progress = numbered(of_pass, pass_, passes_);
             folder_.say(clock_.at(progress));
             if (told) told(progress);
         };
@@ -136,7 +150,9 @@ public:
     BuildReport run(PolarSamples& samples, const AnalysisOptions& options, const Contents& contents) {
         std::vector<Part> parts;
         for (const Polarity polarity : {Polarity::low, Polarity::high}) {  // the bricks that are packed are those of the file's samples
-            if (holds(contents.polarities, polarity)) parts.push_back(part_of(samples.as(polarity), options, contents));
+            if (!holds(contents.polarities, polarity)) continue;
+            pass_ = static_cast<int>(parts.size());
+            parts.push_back(part_of(samples.as(polarity), options, contents));
         }
         pack(samples.as(Polarity::high), contents, parts);
         return report_;
@@ -218,6 +234,7 @@ private:
     BuildFolder folder_;
     BuildClock clock_;
     Context context_;
+    int passes_, pass_ = 0;
     BuildReport report_;
 };
 
@@ -225,7 +242,7 @@ private:
 
 BuildReport build_atlas(const std::string& path, VolumeReader& reader, const BuildOptions& options, const Context& context) {
     const EnvironmentScope scope(context);
-    Build build(path, options.restart, context);  // obstacles are reported before anything is read
+    Build build(path, options.restart, options.polarities, context);  // obstacles are reported before anything is read
     const BuildEstimate estimate = estimate_build(reader, path, options, context.threads);
     check_estimate(estimate, reader.info().path, path);
     const MemoryLimit limit(estimate.uses_scratch ? estimate.budget : 0, build.scratch_folder());
@@ -264,7 +281,7 @@ BuildReport build_atlas(const std::string& path, const Volume& volume, const Ana
     const Contents contents =
         contents_of(file, options, header_fingerprint(file.info, asked, options.tunnel_height), std::nullopt, polarities);
     PolarSamples both(file.info, {const_cast<std::byte*>(file.bytes.data()), file.bytes.size()});
-    return Build(path, false, context).run(both, options, contents);
+    return Build(path, false, polarities, context).run(both, options, contents);
 }
 
 }  // namespace isoatlas

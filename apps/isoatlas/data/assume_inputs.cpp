@@ -53,7 +53,7 @@ MissingPolicy without_fill(MissingPolicy missing, const FillValue& fill, ValueTy
 void leave_out(Arguments& arguments, const FillValue& fill, const VolumeInfo& info, std::int64_t samples) {
     const MissingPolicy given = arguments.missing;
     arguments.missing = without_fill(given, fill, info.type, arguments.is_low());
-    if (arguments.polarity == PolarityChoice::both && given.action != MissingPolicy::Action::replace) {
+    if (!arguments.is_low() && given.action != MissingPolicy::Action::replace) {
         MissingPolicy of_low = given;
         if (of_low.action == MissingPolicy::Action::below) of_low.action = MissingPolicy::Action::above;
         arguments.inputs.missing_of_low = without_fill(of_low, fill, info.type, true);

@@ -1,6 +1,8 @@
 #include "data/chosen_labels.h"
 
 #include <algorithm>
+#include <iterator>
+#include <map>
 #include <set>
 
 #include <fmt/format.h>
@@ -50,14 +52,21 @@ NestedSource nested_source(Source& source, std::optional<Analysis>& analysis) {
     return {objects, cavities};
 }
 
-}  // namespace
+/// By label, with the number of voxels of each.
+void count_voxels(ChosenLabels& labels) {
+    std::ranges::stable_sort(labels.objects, {}, [](const LabelledObject& one) { return one.segment.number; });
+    std::vector<std::int64_t> voxels(static_cast<std::size_t>(labels.objects.back().segment.number) + 1, 0);
+    for (const std::uint32_t label : labels.of_voxel) ++voxels[label];
+    for (LabelledObject& one : labels.objects) one.segment.voxels = voxels[static_cast<std::size_t>(one.segment.number)];
+}
 
-ChosenLabels chosen_labels(const Arguments& arguments, Source& source, std::int64_t table, const std::vector<ChosenObject>& objects) {
+/// Of objects of one polarity. table: how many objects it has.
+ChosenLabels labels_of_side(const Arguments& arguments, Source& source, std::int64_t table, const std::vector<ChosenObject>& objects) {
     ChosenLabels labels;
     const Scale scale(source.info());
     for (const ChosenObject& object : objects) {
         const Colour colour = colour_of(object, std::ssize(labels.objects));
-        labels.objects.push_back({object, {0, title_of(object), bytes_of(colour), scale.reported(object.tau), 0}});
+        labels.objects.push_back({object, {0, title_of(object), bytes_of(colour), scale.reported(object.tau), 0, object.polarity}});
     }
     number_labels(labels.objects, table);
     std::vector<NestedPart> parts;
@@ -71,11 +80,50 @@ ChosenLabels chosen_labels(const Arguments& arguments, Source& source, std::int6
         if (!is_of_part) throw;
         does_not_exist(arguments, objects[std::stoull(error.text().where.substr(5))]);
     }
-    std::ranges::stable_sort(labels.objects, {}, [](const LabelledObject& one) { return one.segment.number; });
-    std::vector<std::int64_t> voxels(static_cast<std::size_t>(labels.objects.back().segment.number) + 1, 0);
-    for (const std::uint32_t label : labels.of_voxel) ++voxels[label];
-    for (LabelledObject& one : labels.objects) one.segment.voxels = voxels[static_cast<std::size_t>(one.segment.number)];
+    count_voxels(labels);
     return labels;
+}
+
+/// Adds those of low values behind the last label of the others.
+void add_labels(ChosenLabels& labels, const ChosenLabels& low) {
+    const std::int64_t last = labels.objects.back().segment.number;
+    std::map<std::uint32_t, std::uint32_t> renumbered;
+    std::map<std::uint32_t, std::int64_t> voxels;
+    for (const LabelledObject& one : labels.objects) voxels[static_cast<std::uint32_t>(one.segment.number)] = one.segment.voxels;
+    for (LabelledObject one : low.objects) {
+        const auto before = static_cast<std::uint32_t>(one.segment.number);
+        one.segment.number = last + std::ssize(renumbered) + 1;
+        renumbered[before] = static_cast<std::uint32_t>(one.segment.number);
+        voxels[renumbered[before]] = one.segment.voxels;
+        labels.objects.push_back(std::move(one));
+    }
+    for (std::size_t v = 0; v < labels.of_voxel.size(); ++v) {
+        if (low.of_voxel[v] == 0) continue;
+        std::uint32_t& label = labels.of_voxel[v];
+        const std::uint32_t own = renumbered.at(low.of_voxel[v]);
+        if (label == 0 || voxels.at(own) < voxels.at(label)) label = own;
+    }
+    count_voxels(labels);
+}
+
+}  // namespace
+
+ChosenLabels chosen_labels(const Arguments& arguments, Sides& sides, const std::vector<ChosenObject>& objects) {
+    std::optional<ChosenLabels> labels;
+    for (const Polarity polarity : {Polarity::high, Polarity::low}) {
+        std::vector<ChosenObject> own;
+        std::ranges::copy_if(objects, std::back_inserter(own), [&](const ChosenObject& object) { return object.polarity == polarity; });
+        if (own.empty()) continue;
+        const std::int64_t table = sides.directory(polarity).object_count();
+        sides.source(polarity).release_trees();
+        ChosenLabels found = labels_of_side(arguments, sides.source(polarity), table, own);
+        if (labels) {
+            add_labels(*labels, found);
+        } else {
+            labels = std::move(found);
+        }
+    }
+    return std::move(labels.value());
 }
 
 }  // namespace isoatlas::cli

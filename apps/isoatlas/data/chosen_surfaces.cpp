@@ -43,19 +43,19 @@ std::array<std::uint8_t, 3> bytes_of(const Colour& colour) {
     return {byte(colour.red), byte(colour.green), byte(colour.blue)};
 }
 
-std::vector<ChosenSurface> chosen_surfaces(Source& source, const std::vector<ChosenObject>& objects, const SurfaceOptions& options,
+std::vector<ChosenSurface> chosen_surfaces(Sides& sides, const std::vector<ChosenObject>& objects, const SurfaceOptions& options,
                                            std::vector<std::string>& notes) {
     std::vector<ChosenSurface> surfaces;
-    std::map<std::tuple<bool, double, std::int64_t>, std::string> written;  // what an object or contour is called
+    std::map<std::tuple<Polarity, bool, double, std::int64_t>, std::string> written;  // what an object or contour is called
     for (const ChosenObject& object : objects) {
         stop_if_interrupted();
-        Surface surface = extract_one(source, object, options);
+        Surface surface = extract_one(sides.source(object), object, options);
         if (surface.points.empty()) {
             notes.push_back(fmt::format("{} has no such surface at {}", title_of(object), object.tau_text));
             continue;
         }
         const std::int64_t id = object.is_contour ? object.voxel : surface.object.front();
-        const auto [known, is_new] = written.try_emplace({object.is_contour, object.tau, id}, title_of(object));
+        const auto [known, is_new] = written.try_emplace({object.polarity, object.is_contour, object.tau, id}, title_of(object));
         if (!is_new) {
             notes.push_back(fmt::format("{} is {} at {}: written once", title_of(object), known->second, object.tau_text));
             continue;

@@ -6,7 +6,7 @@
 
 #include <isoatlas/isoatlas.h>
 
-#include "data/object_directory.h"
+#include "data/sides.h"
 
 namespace isoatlas::cli {
 
@@ -17,7 +17,7 @@ struct ChosenSurface {
 
 /// options: of all, without objects and contours. notes: receives what is not written twice. Throws Error{not_found} for an object that
 /// does not exist at its isovalue.
-[[nodiscard]] std::vector<ChosenSurface> chosen_surfaces(Source& source, const std::vector<ChosenObject>& objects,
+[[nodiscard]] std::vector<ChosenSurface> chosen_surfaces(Sides& sides, const std::vector<ChosenObject>& objects,
                                                          const SurfaceOptions& options, std::vector<std::string>& notes);
 
 /// "head.glb" for object 2 with the name skull: "head-2-skull.glb"; with an isovalue of its own "head-2-skull-at-1367.glb".

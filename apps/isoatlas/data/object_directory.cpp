@@ -36,15 +36,16 @@ std::int64_t line_of(const Table& table, const Entry& entry) {
 
 std::string title_of(const ChosenObject& object) {
     if (!object.name.empty()) return object.name;
-    if (object.number == 0) return (object.is_contour ? "contour " : "") + voxel_word(object.voxel);
-    return fmt::format("{} {}", object.is_contour ? "cavity" : "object", object.number);
+    const auto own = [&](const std::string& word) { return with_polarity(word, object.polarity); };
+    if (object.number == 0) return (object.is_contour ? "contour " : "") + own(voxel_word(object.voxel));
+    return (object.is_contour ? "cavity " : "object ") + own(std::to_string(object.number));
 }
 
 std::string reference_of(const ChosenObject& object, bool with_tau) {
     const std::string word = object.number == 0  ? voxel_word(object.voxel)
                              : object.is_contour ? cavity_word(object.number)
                                                  : std::to_string(object.number);
-    return with_tau && !object.is_best ? word + "@" + object.tau_text : word;
+    return with_polarity(word, object.polarity) + (with_tau && !object.is_best ? "@" + object.tau_text : "");
 }
 
 Colour colour_of(const ChosenObject& object, std::int64_t place) {
@@ -106,12 +107,12 @@ std::string ObjectDirectory::name_of(const CavityEntry& entry) {
 
 ChosenObject ObjectDirectory::chosen(const ObjectEntry& entry, std::int64_t number) {
     const std::string tau = Scale(source_.info()).text_within(entry.best_tau, entry.tau_low, entry.tau_high);
-    return {number, false, entry.id, entry.best_tau, tau, true, name_of(entry)};
+    return {number, false, entry.id, entry.best_tau, tau, true, name_of(entry), polarity()};
 }
 
 ChosenObject ObjectDirectory::chosen(const CavityEntry& entry, std::int64_t number) {
     const std::string tau = Scale(source_.info()).text_within(entry.best_tau, entry.tau_low, entry.tau_high);
-    return {number, true, entry.id, entry.best_tau, tau, true, name_of(entry)};
+    return {number, true, entry.id, entry.best_tau, tau, true, name_of(entry), polarity()};
 }
 
 ChosenObject ObjectDirectory::at(ChosenObject object, double typed) {
@@ -164,6 +165,7 @@ std::vector<ChosenObject> ObjectDirectory::find_contours(std::span<const ObjectR
                                            .next = list_command(arguments_) + " --cavities lists cavities and their isovalues"});
         ChosenObject contour{
             .is_contour = true, .voxel = reference.number, .tau = source_.stored(*tau), .tau_text = fmt::format("{}", *tau)};
+        contour.polarity = polarity();
         contours.push_back(contour);
     }
     return contours;
@@ -181,13 +183,15 @@ std::vector<ChosenObject> ObjectDirectory::first(std::int64_t count) {
 }
 
 void ObjectDirectory::no_number(std::int64_t number, bool is_cavity, std::int64_t count) const {
+    const std::string of_low = polarity() == Polarity::low ? " of low values" : "";
     const std::string what = is_cavity ? "cavity" : "object", many = is_cavity ? "cavities" : "objects";
     const std::string expected = count == 0   ? fmt::format("no {} of this volume is above the noise level", what)
                                  : count == 1 ? fmt::format("1: the table has one {}", what)
-                                              : fmt::format("1 to {}: the table has {} {}", count, count, many);
+                                              : fmt::format("1 to {}: the table{} has {} {}", count, of_low, count, many);
     const bool is_voxel = !is_cavity && number >= 0 && number < source_.info().extent.voxels();
-    const std::string other = is_voxel ? fmt::format("; the object of voxel {0} is v{0}", number) : "";
-    not_found(arguments_, fmt::format("there is no {} {}", what, number), expected,
+    const std::string other =
+        is_voxel ? fmt::format("; the object of voxel {} is {}", number, with_polarity(voxel_word(number), polarity())) : "";
+    not_found(arguments_, fmt::format("there is no {} {}", what, with_polarity(std::to_string(number), polarity())), expected,
               list_command(arguments_) + (is_cavity ? " --cavities" : "") + " lists them" + other);
 }
 
@@ -229,6 +233,7 @@ ChosenObject ObjectDirectory::voxel(const ObjectReference& reference, const std:
     if (!typed) return voxel_of_lines(reference);
     const double tau = source_.stored(*typed);
     ChosenObject object{.voxel = reference.number, .tau = tau, .tau_text = fmt::format("{}", *typed)};
+    object.polarity = polarity();
     const ObjectName* name = find_object_name(names(), false, object.voxel, Scale(source_.info()).reported(tau));
     if (name != nullptr) object.name = name->name;
     return object;
@@ -256,7 +261,7 @@ ChosenObject ObjectDirectory::voxel_of_lines(const ObjectReference& reference) {
     const ObjectTable all = source_.objects({.top = 0, .gate = false});
     const std::vector<std::int64_t> others = lines(all);
     if (!others.empty()) return chosen(all.entries[static_cast<std::size_t>(others[0] - 1)], 0);
-    const bool is_low = polarity_of(source_.info()) == Polarity::low;
+    const bool is_low = polarity() == Polarity::low;
     not_found(arguments_, fmt::format("no object of the table has {} as its {} voxel", reference.word, is_low ? "lowest" : "highest"), "",
               fmt::format("{} lists them; {}@T is the object at T that holds this voxel", list_command(arguments_), reference.word));
 }
@@ -275,7 +280,7 @@ ChosenObject ObjectDirectory::named(const ObjectReference& reference, const std:
     }
     const Scale scale(source_.info());
     ChosenObject object{.is_contour = name->is_cavity, .voxel = name->voxel, .tau = scale.stored(name->isovalue)};
-    object.tau_text = fmt::format("{}", name->isovalue), object.name = name->name;
+    object.tau_text = fmt::format("{}", name->isovalue), object.name = name->name, object.polarity = polarity();
     const auto look = [&](const auto& table) {
         for (std::size_t i = 0; i < table.entries.size(); ++i) {
             const auto& entry = table.entries[i];

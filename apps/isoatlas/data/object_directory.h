@@ -25,11 +25,12 @@ struct ChosenObject {
     std::string tau_text{};   ///< calibrated, as short as it can be
     bool is_best = false;     ///< tau is that of its line
     std::string name{};       ///< that a user gave it; empty: none
+    Polarity polarity = Polarity::high;
 };
 
-/// "skull", "object 2", "cavity 3", "v218663"
+/// "skull", "object 2", "cavity 3", "v218663"; of low values "object low2", ...
 [[nodiscard]] std::string title_of(const ChosenObject& object);
-/// "2", "c3", "v218663"; with_tau: "2@150" where it is not at its best isovalue.
+/// "2", "c3", "v218663", "low2"; with_tau: "2@150" where it is not at its best isovalue.
 [[nodiscard]] std::string reference_of(const ChosenObject& object, bool with_tau = false);
 /// The colour that page and viewer give it; in no table: that of the place in a list.
 [[nodiscard]] Colour colour_of(const ChosenObject& object, std::int64_t place);
@@ -41,6 +42,7 @@ struct ChosenObject {
 /// A damaged file is a warning, and no names.
 [[nodiscard]] std::vector<ObjectName> names_in(const std::string& file, const Extent& extent, Terminal& terminal);
 
+/// Those of one polarity, that of the source: references of the other one are not looked for here (data/sides.h).
 class ObjectDirectory {
 public:
     ObjectDirectory(const Arguments& arguments, Source& source, Terminal& terminal);
@@ -81,6 +83,7 @@ private:
     [[nodiscard]] ChosenObject voxel_of_lines(const ObjectReference& reference);
     [[nodiscard]] ChosenObject named(const ObjectReference& reference, const std::optional<double>& typed);
     void check_voxel(std::int64_t voxel) const;
+    [[nodiscard]] Polarity polarity() const { return polarity_of(source_.info()); }
     [[noreturn]] void no_number(std::int64_t number, bool is_cavity, std::int64_t count) const;
 
     const Arguments& arguments_;

@@ -90,10 +90,9 @@ void convert_picture(const PictureWords& words, PictureArguments& picture);
 [[nodiscard]] std::string length_unit(const VolumeInfo& info);
 
 /// The scene of the arguments, without the cut. Throws Error: usage, not_found.
-class Source;
-class Terminal;
+class Sides;
 struct Arguments;
-[[nodiscard]] Scene scene_of(const Arguments& arguments, Source& source, Terminal& terminal);
+[[nodiscard]] Scene scene_of(const Arguments& arguments, Sides& sides);
 /// The part that --cut removes, seen from `view`; octants and halves are those of the volume.
 [[nodiscard]] std::vector<HalfSpace> removed_part(const PictureArguments& picture, const VolumeInfo& info, const View& view);
 

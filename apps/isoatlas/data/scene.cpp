@@ -4,10 +4,8 @@
 
 #include <fmt/format.h>
 
-#include "data/object_directory.h"
 #include "data/picture.h"
-#include "data/source.h"
-#include "text/terminal.h"
+#include "data/sides.h"
 
 namespace isoatlas::cli {
 namespace {
@@ -27,17 +25,19 @@ struct Wanted {
     std::string name;
     std::vector<std::int64_t> contours{};
     ShellChoice shell = ShellChoice::all;
+    Polarity polarity = Polarity::high;
 };
 
 Wanted wanted_object(const ChosenObject& object, ShownPart part = ShownPart::object) {
     Wanted wanted{.tau = object.tau, .objects = {object.voxel}, .name = fmt::format("{}  at {}", title_of(object), object.tau_text)};
+    wanted.polarity = object.polarity;
     if (object.is_contour) wanted.objects.clear(), wanted.contours = {object.voxel};
     if (part == ShownPart::cavities) wanted.name = "cavities of " + wanted.name, wanted.shell = ShellChoice::inner;
     return wanted;
 }
 
 /// As typed: objects, contours, cavities of objects.
-void add_shown(const Arguments& arguments, ObjectDirectory& directory, std::vector<Wanted>& wanted) {
+void add_shown(const Arguments& arguments, Sides& sides, std::vector<Wanted>& wanted) {
     const auto of_part = [&](ShownPart part) {
         std::vector<ObjectReference> references;
         for (const ShownObject& shown : arguments.picture.objects) {
@@ -45,9 +45,9 @@ void add_shown(const Arguments& arguments, ObjectDirectory& directory, std::vect
         }
         return references;
     };
-    for (const ChosenObject& object : directory.find(of_part(ShownPart::object))) wanted.push_back(wanted_object(object));
-    for (const ChosenObject& contour : directory.find_contours(of_part(ShownPart::contour))) wanted.push_back(wanted_object(contour));
-    for (const ChosenObject& object : directory.find(of_part(ShownPart::cavities))) {
+    for (const ChosenObject& object : sides.find(of_part(ShownPart::object))) wanted.push_back(wanted_object(object));
+    for (const ChosenObject& contour : sides.find_contours(of_part(ShownPart::contour))) wanted.push_back(wanted_object(contour));
+    for (const ChosenObject& object : sides.find(of_part(ShownPart::cavities))) {
         if (object.is_contour)
             throw Error(ErrorKind::usage, {.what = title_of(object) + " is a cavity, and not the object around one",
                                            .next = "draw it as an object: " + reference_of(object, true)});
@@ -55,17 +55,17 @@ void add_shown(const Arguments& arguments, ObjectDirectory& directory, std::vect
     }
 }
 
-std::vector<Wanted> wanted_of(const Arguments& arguments, Source& source, Terminal& terminal) {
+std::vector<Wanted> wanted_of(const Arguments& arguments, Sides& sides) {
     std::vector<Wanted> wanted;
     for (const double tau : arguments.picture.taus) {
-        const double stored = source.stored(tau);
+        const double stored = sides.main().stored(tau);
         wanted.push_back({stored, {}, fmt::format("isovalue {}", tau)});
+        wanted.back().polarity = sides.polarity();
     }
-    ObjectDirectory directory(arguments, source, terminal);
-    add_shown(arguments, directory, wanted);
+    add_shown(arguments, sides, wanted);
     const bool other_things = arguments.picture.volume || !arguments.picture.slices.empty();
     if ((!wanted.empty() || other_things) && arguments.top == 0) return wanted;
-    const std::vector<ChosenObject> first = directory.first(std::max<std::int64_t>(1, arguments.top));
+    const std::vector<ChosenObject> first = sides.directory().first(std::max<std::int64_t>(1, arguments.top));
     if (first.empty() && wanted.empty()) nothing_there(arguments, "nothing in this volume rises above the noise");
     for (const ChosenObject& object : first) wanted.push_back(wanted_object(object));
     return wanted;
@@ -83,10 +83,13 @@ Box box_of(const Surface& surface) {
     return box;
 }
 
-/// Does the box of a higher isovalue lie in that of a lower one? Then the lower surface occludes the higher one.
+/// Does the box of a higher isovalue lie in that of a lower one? Then the lower surface occludes the higher one. Of different polarities
+/// any box in another one.
 bool hides(const SceneObject& outer, const SceneObject& inner) {
-    if (outer.surface.tau >= inner.surface.tau) return false;
+    const bool are_alike = outer.surface.polarity == inner.surface.polarity;
+    if (are_alike && outer.surface.tau >= inner.surface.tau) return false;
     const Box a = box_of(outer.surface), b = box_of(inner.surface);
+    if (!are_alike && a.low == b.low && a.high == b.high) return false;
     for (std::size_t i = 0; i < 3; ++i) {
         const double slack = 1e-9 * (a.high[i] - a.low[i]);
         if (b.low[i] < a.low[i] - slack || b.high[i] > a.high[i] + slack) return false;
@@ -155,11 +158,15 @@ SampleBox box_of_slice(const Extent& extent, const ShownSlice& slice) {
 void add_slices(const Arguments& arguments, Source& source, const Volume& volume, Scene& scene) {
     const PictureArguments& picture = arguments.picture;
     const ValueRange range = source.range();
+    const Scale scale(source.info());
     for (const ShownSlice& shown : picture.slices) {
         SliceOptions options{.axis = shown.axis, .index = shown.index, .black = range.low, .white = range.high};
         options.side =
             picture.flat ? slice_side(source.info(), shown.axis, picture.width, picture.height) : std::max(picture.width, picture.height);
-        for (const SceneObject& object : scene.objects) options.contours.push_back({object.surface.tau, object.colour});
+        for (const SceneObject& object : scene.objects) {
+            const bool is_same = object.surface.polarity == polarity_of(source.info());
+            options.contours.push_back({is_same ? object.surface.tau : scale.stored(object.surface.reported_tau), object.colour});
+        }
         scene.slices.push_back(slice_picture(volume, options, source.context()));
     }
 }
@@ -191,23 +198,24 @@ RenderOptions options_of_picture(const PictureArguments& picture) {
 
 std::string length_unit(const VolumeInfo& info) { return length_unit_name(info.geometry); }
 
-Scene scene_of(const Arguments& arguments, Source& source, Terminal& terminal) {
+Scene scene_of(const Arguments& arguments, Sides& sides) {
     const PictureArguments& picture = arguments.picture;
+    Source& source = sides.main();
     if (source.info().extent.rank == 2)
         throw Error(ErrorKind::usage, {.file = arguments.file,
                                        .what = "a 2D volume has contour lines, not surfaces to draw in space",
                                        .next = "isoatlas extract " + shell_word(arguments.file) + " --tau T -o curves.vtp writes them"});
     Scene scene;
     scene.unit = length_unit(source.info());
-    const std::vector<Wanted> all = wanted_of(arguments, source, terminal);
-    if (!picture.volume) source.release_trees();
+    const std::vector<Wanted> all = wanted_of(arguments, sides);
+    if (!picture.volume) sides.release_trees();
     for (const Wanted& wanted : all) {
         SurfaceOptions options;
         options.objects = wanted.objects;
         options.contours = wanted.contours;
         options.shell = wanted.shell;
         options.ids = false;
-        Surface surface = source.extract(wanted.tau, options);
+        Surface surface = sides.source(wanted.polarity).extract(wanted.tau, options);
         if (surface.triangles.empty()) nothing_there(arguments, "there is no surface: " + wanted.name);
         const std::size_t i = scene.objects.size();
         const Colour colour = i < picture.colours.size() ? picture.colours[i] : palette(static_cast<std::int64_t>(i));

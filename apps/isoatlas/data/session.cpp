@@ -121,7 +121,9 @@ Volume Session::load() {
     }
     stop_if_interrupted();
     std::ranges::copy(arguments_.inputs.assumed, std::back_inserter(volume.info.notes));
-    for (const std::string& note : volume.info.notes) terminal_.say("note: " + note);
+    for (const std::string& note : volume.info.notes) {
+        if (!arguments_.quiet) terminal_.say("note: " + note);
+    }
     if (arguments_.voxel_units) volume.info.geometry = voxel_geometry();
     volume = shaped(std::move(volume), arguments_, context());
     if (arguments_.is_low()) volume = negated(std::move(volume));

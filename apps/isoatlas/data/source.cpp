@@ -48,8 +48,9 @@ Source::Source(const Arguments& arguments, Terminal& terminal) : arguments_(argu
     check_store_options(arguments, *atlas_);
     info_ = atlas_->info();
     if (arguments.voxel_units) info_.geometry = voxel_geometry();
+    if (arguments.quiet) return;
     for (const std::string& note : info_.notes) terminal.say("note: " + note);
-    if (!arguments.quiet) terminal.say(session_.describe(info_, range()));
+    terminal.say(session_.describe(info_, range()));
 }
 
 ValueRange Source::range() {

@@ -34,7 +34,8 @@ std::unique_ptr<CLI::App> make_parser(const Verb& verb, Arguments& arguments, Ty
     if (verb.name != "phantom") operand->required();
     if (verb.name == "dump") app->add_option("PART", arguments.part, "Part to print; default: a list of all parts")->type_name("");
     if (verb.name == "name")
-        app->add_option("OBJECT", arguments.part, "An object (2, c3, v81275@150), then its name; nothing: list the names")->type_name("");
+        app->add_option("OBJECT", arguments.part, "An object (2, c3, low2, v81275@150), then its name; nothing: list the names")
+            ->type_name("");
     if (verb.name == "ask")
         app->add_option("REQUEST", arguments.part, "Path, such as '/api/objects?tau=300' (docs/server.md)")->type_name("");
     add_options_of(verb.name, *app, arguments, typed);
@@ -80,7 +81,9 @@ void convert_polarity(const std::string& word, Arguments& arguments) {
     const std::vector<std::pair<std::string, PolarityChoice>> choices{
         {"high", PolarityChoice::high}, {"low", PolarityChoice::low}, {"both", PolarityChoice::both}};
     arguments.polarity = parse_choice<PolarityChoice>("--polarity", word, choices);
-    if (*arguments.polarity == PolarityChoice::both && arguments.verb != "objects" && arguments.verb != "build")
+    const bool takes_both =
+        arguments.verb == "objects" || arguments.verb == "build" || arguments.verb == "atlas" || arguments.verb == "view";
+    if (*arguments.polarity == PolarityChoice::both && !takes_both)
         usage("isoatlas " + arguments.verb + " shows the objects of high or of low values", "choose one with --polarity",
               "--polarity high or --polarity low");
     MissingPolicy::Action& missing = arguments.missing.action;

@@ -23,7 +23,7 @@ struct InputChoices {
     bool are_labels = false;                      ///< found, or said by the user
     double noise = 0, range = 0;                  ///< stored values, where smoothing could be advised
     std::vector<std::string> assumed;             ///< sentences: what was assumed and how to undo it
-    std::optional<MissingPolicy> missing_of_low;  ///< --polarity both, where a fill value was found: of the low side
+    std::optional<MissingPolicy> missing_of_low;  ///< where a fill value was found: for objects of low values
 };
 
 struct Arguments {

@@ -6,7 +6,7 @@
 
 #include "data/movie.h"
 #include "data/picture.h"
-#include "data/source.h"
+#include "data/sides.h"
 #include "text/document.h"
 #include "text/evolution.h"
 #include "text/interrupt.h"
@@ -139,9 +139,10 @@ Made evolve(const Arguments& arguments, Source& source, RenderOptions options) {
     return made;
 }
 
-Made turntable(const Arguments& arguments, Source& source, Terminal& terminal, const RenderOptions& options) {
+Made turntable(const Arguments& arguments, Sides& sides, const RenderOptions& options) {
     const PictureArguments& picture = arguments.picture;
-    Scene scene = scene_of(arguments, source, terminal);
+    Source& source = sides.main();
+    Scene scene = scene_of(arguments, sides);
     const View view = picture.view ? *picture.view : best_view(scene, picture.up, source.context());
     scene.removed = removed_part(picture, source.info(), view);
     Camera camera = fit_turntable(scene, view, picture.up, options);
@@ -194,9 +195,10 @@ int run_animate(const Arguments& arguments, Terminal& terminal) {
     if (arguments.selects && !wanted.from)
         throw Error(ErrorKind::usage,
                     {.what = "a selection applies to an evolution only", .next = "give --from and --to, or omit the selection"});
-    Source source(arguments, terminal);
+    Sides sides(arguments, terminal);
+    Source& source = sides.main();
     RenderOptions options = options_of_picture(arguments.picture);
-    Made made = wanted.from ? evolve(arguments, source, options) : turntable(arguments, source, terminal, options);
+    Made made = wanted.from ? evolve(arguments, source, options) : turntable(arguments, sides, options);
     made.animation.frames_per_second = wanted.frames_per_second;
     write_movie(arguments.output, made.animation);
     if (arguments.json) {

@@ -154,6 +154,7 @@ BuildOptions build_options(const Arguments& arguments, const VolumeInfo& info) {
 
 BuildReport build_store(const Arguments& arguments, Terminal& terminal, VolumeReader& reader,
                         const std::function<void(const Progress&)>& watch) {
+    check_missing_of_both(arguments);
     BuildReport report;
     {
         Session session(arguments, terminal);

@@ -4,9 +4,8 @@
 #include <fmt/format.h>
 
 #include "data/chosen_surfaces.h"
-#include "data/object_directory.h"
 #include "data/print_surface.h"
-#include "data/source.h"
+#include "data/sides.h"
 #include "text/document.h"
 #include "text/interrupt.h"
 #include "text/terminal.h"
@@ -41,20 +40,21 @@ void check_extract_arguments(const Arguments& arguments) {
 }
 
 /// The objects and contours of the command line; empty: everything at --tau.
-std::vector<ChosenObject> chosen_objects(const Arguments& arguments, ObjectDirectory& directory) {
-    std::vector<ChosenObject> chosen = directory.find(arguments.objects, arguments.tau);
-    for (ChosenObject& contour : directory.find_contours(arguments.contours, arguments.tau)) chosen.push_back(std::move(contour));
+std::vector<ChosenObject> chosen_objects(const Arguments& arguments, Sides& sides) {
+    std::vector<ChosenObject> chosen = sides.find(arguments.objects, arguments.tau);
+    for (ChosenObject& contour : sides.find_contours(arguments.contours, arguments.tau)) chosen.push_back(std::move(contour));
     const std::int64_t top = arguments.top > 0 ? arguments.top : arguments.best && arguments.objects.empty() ? 1 : 0;
     if (top == 0) return chosen;
-    std::vector<ChosenObject> first = directory.first(top);
+    std::vector<ChosenObject> first = sides.directory().first(top);
     if (first.empty()) {
         throw Error(ErrorKind::not_found, {.file = arguments.file,
                                            .what = "no object of this volume is above the noise level",
                                            .next = "isoatlas objects " + shell_word(arguments.file) + " --all lists all; or give --tau"});
     }
     const auto is_chosen = [&](const ChosenObject& object) {
-        return std::ranges::any_of(
-            chosen, [&](const ChosenObject& other) { return !other.is_contour && other.voxel == object.voxel && other.tau == object.tau; });
+        return std::ranges::any_of(chosen, [&](const ChosenObject& other) {
+            return !other.is_contour && other.polarity == object.polarity && other.voxel == object.voxel && other.tau == object.tau;
+        });
     };
     std::erase_if(first, is_chosen);
     chosen.insert(chosen.end(), first.begin(), first.end());
@@ -64,7 +64,8 @@ std::vector<ChosenObject> chosen_objects(const Arguments& arguments, ObjectDirec
 /// One surface of all chosen objects at one isovalue: every vertex once, also where two references mean one object.
 bool is_one_surface(const Arguments& arguments, const std::vector<ChosenObject>& chosen) {
     if (chosen.empty()) return true;
-    const bool same = std::ranges::all_of(chosen, [&](const ChosenObject& object) { return object.tau == chosen[0].tau; });
+    const bool same = std::ranges::all_of(
+        chosen, [&](const ChosenObject& object) { return object.polarity == chosen[0].polarity && object.tau == chosen[0].tau; });
     const bool mixed = chosen.size() > 1 && std::ranges::any_of(chosen, &ChosenObject::is_contour) && !arguments.tau;
     return same && !mixed && !arguments.split && !arguments.output.ends_with(".glb");
 }
@@ -130,6 +131,7 @@ Json part_json(const Written::Part& part) {
     Json json{{"reference", reference_of(object)}};
     json["number"] = object.number == 0 ? Json(nullptr) : Json(object.number);
     json["name"] = object.name.empty() ? Json(nullptr) : Json(object.name);
+    if (object.polarity == Polarity::low) json["polarity"] = name_of(object.polarity);
     json["side"] = object.is_contour ? "cavity" : "object";
     json["id"] = object.voxel;
     json["tau"] = part.reported_tau;
@@ -169,7 +171,9 @@ std::string size_text(const Counts& counts) {
 void print_text(const Arguments& arguments, Terminal& terminal, Source& source, const Written& written) {
     const std::string closed = written.counts.closed ? "closed" : "open at the border of the volume";
     const std::string unit = written.unit.empty() ? "" : ", in " + written.unit;
-    const std::string of_low = polarity_of(source.info()) == Polarity::low ? ", of low values" : "";
+    const auto is_low = [](const Written::Part& part) { return part.object.polarity == Polarity::low; };
+    const bool all_low = written.parts.empty() ? polarity_of(source.info()) == Polarity::low : std::ranges::all_of(written.parts, is_low);
+    const std::string of_low = all_low ? ", of low values" : "";
     const std::string connectivity = interpolant_text(source.info(), source.interpolant(), source.tunnel_height()) + of_low;
     if (written.has_one_tau && !arguments.split) {
         terminal.out() << shown_name(arguments.output) << ": " << size_text(written.counts) << counted(written.counts.objects, "object")
@@ -209,9 +213,9 @@ Written write_one(const Arguments& arguments, Source& source, const std::vector<
 }
 
 /// Each object at its isovalue, in one file or in one file each.
-Written write_several(const Arguments& arguments, Source& source, const std::vector<ChosenObject>& chosen) {
+Written write_several(const Arguments& arguments, Sides& sides, const std::vector<ChosenObject>& chosen) {
     Written written;
-    std::vector<ChosenSurface> surfaces = chosen_surfaces(source, chosen, options_of(arguments), written.notes);
+    std::vector<ChosenSurface> surfaces = chosen_surfaces(sides, chosen, options_of(arguments), written.notes);
     if (surfaces.empty()) nothing_written(arguments);
     const Surface& first = surfaces[0].named.surface;
     written.tau = first.tau, written.reported_tau = first.reported_tau, written.space = first.space;
@@ -229,7 +233,7 @@ Written write_several(const Arguments& arguments, Source& source, const std::vec
         const std::string output = arguments.split ? split_name(arguments.output, one.object) : arguments.output;
         const Counts counts = count(one.named.surface);
         written.counts += counts;
-        written.has_one_tau = written.has_one_tau && one.object.tau == written.tau;
+        written.has_one_tau = written.has_one_tau && one.object.tau == written.tau && one.object.polarity == surfaces[0].object.polarity;
         written.parts.push_back({one.object, counts, one.named.surface.reported_tau, output});
         together.push_back(std::move(one.named));
         if (!arguments.split) continue;
@@ -251,22 +255,19 @@ int run_extract(const Arguments& arguments, Terminal& terminal) {
         return extract_label_objects(arguments, terminal);
     }
     check_extract_arguments(arguments);
-    Source source(arguments, terminal);
-    std::vector<ChosenObject> chosen;
-    {
-        ObjectDirectory directory(arguments, source, terminal);
-        chosen = chosen_objects(arguments, directory);
-        source.release_trees();
-    }
-    Written written = is_one_surface(arguments, chosen) ? write_one(arguments, source, chosen) : write_several(arguments, source, chosen);
+    Sides sides(arguments, terminal);
+    const std::vector<ChosenObject> chosen = chosen_objects(arguments, sides);
+    sides.release_trees();
+    Source& first = chosen.empty() ? sides.main() : sides.source(chosen[0]);
+    Written written = is_one_surface(arguments, chosen) ? write_one(arguments, first, chosen) : write_several(arguments, sides, chosen);
     if (arguments.space && space_in_file(arguments.output, written.space) == "glTF")
         written.warnings.emplace_back("--space does not apply to .glb, which has metres and y up");
     for (const std::string& warning : written.warnings) terminal.warn(warning);
     for (const std::string& note : written.notes) terminal.say("note: " + note);
     if (arguments.json) {
-        print(terminal, to_json(arguments, source, written));
+        print(terminal, to_json(arguments, first, written));
     } else {
-        print_text(arguments, terminal, source, written);
+        print_text(arguments, terminal, first, written);
     }
     return 0;
 }

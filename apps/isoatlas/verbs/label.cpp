@@ -109,6 +109,7 @@ Json segment_json(const LabelledObject& one) {
     Json json{{"label", one.segment.number}, {"reference", reference_of(object)}};
     json["number"] = object.number == 0 ? Json(nullptr) : Json(object.number);
     json["name"] = object.name.empty() ? Json(nullptr) : Json(object.name);
+    if (object.polarity == Polarity::low) json["polarity"] = name_of(object.polarity);
     json["side"] = object.is_contour ? "cavity" : "object";
     json["id"] = object.voxel;
     json["tau"] = one.segment.isovalue;
@@ -117,26 +118,24 @@ Json segment_json(const LabelledObject& one) {
     return json;
 }
 
-ChosenLabels make_chosen_labels(const Arguments& arguments, Source& source, Terminal& terminal) {
-    ObjectDirectory directory(arguments, source, terminal);
-    std::vector<ChosenObject> chosen = directory.find(arguments.objects, arguments.tau);
+ChosenLabels make_chosen_labels(const Arguments& arguments, Sides& sides) {
+    std::vector<ChosenObject> chosen = sides.find(arguments.objects, arguments.tau);
     if (arguments.top > 0) {
-        for (const ChosenObject& object : directory.first(arguments.top)) chosen.push_back(object);
+        for (const ChosenObject& object : sides.directory().first(arguments.top)) chosen.push_back(object);
     }
     if (chosen.empty()) {
         throw Error(ErrorKind::not_found, {.file = arguments.file,
                                            .what = "no object of this volume is above the noise level",
                                            .next = "isoatlas objects " + shell_word(arguments.file) + " --all lists all; or give --tau"});
     }
-    const std::int64_t table = directory.object_count();
-    source.release_trees();
-    return chosen_labels(arguments, source, table, chosen);
+    return chosen_labels(arguments, sides, chosen);
 }
 
 /// Objects of the table, each at its own isovalue.
 int label_chosen(const Arguments& arguments, Terminal& terminal) {
-    Source source(arguments, terminal);
-    const ChosenLabels labels = make_chosen_labels(arguments, source, terminal);
+    Sides sides(arguments, terminal);
+    Source& source = sides.main();
+    const ChosenLabels labels = make_chosen_labels(arguments, sides);
     std::vector<Segment> segments;
     for (const LabelledObject& one : labels.objects) {
         segments.push_back(one.segment);

@@ -1,10 +1,10 @@
 // isoatlas name: names of objects and cavities, in a file beside the store.
 #include <algorithm>
+#include <array>
 
 #include <fmt/format.h>
 
-#include "data/object_directory.h"
-#include "data/source.h"
+#include "data/sides.h"
 #include "text/document.h"
 #include "text/interrupt.h"
 #include "text/table.h"
@@ -29,21 +29,30 @@ struct Line {
     ChosenObject object;
 };
 
-std::vector<Line> lines_of(ObjectDirectory& directory, const std::vector<ObjectName>& names) {
+using NamesOfSides = std::array<std::vector<ObjectName>, 2>;  ///< by polarity
+
+std::vector<ObjectName>& of(NamesOfSides& names, Polarity polarity) { return names[static_cast<std::size_t>(polarity)]; }
+
+/// Those of one side after those of the other one.
+std::vector<Line> lines_of(Sides& sides, NamesOfSides& names) {
     std::vector<Line> lines;
-    for (const ObjectName& name : names) {
-        const ObjectReference reference{.kind = ObjectReference::Kind::name, .tau = {}, .word = name.name};
-        lines.push_back({name, directory.find({&reference, 1}).front()});
+    for (const Polarity polarity : {Polarity::high, Polarity::low}) {
+        for (const ObjectName& name : of(names, polarity)) {
+            const ObjectReference reference{.kind = ObjectReference::Kind::name, .tau = {}, .word = name.name};
+            lines.push_back({name, sides.directory(polarity).find({&reference, 1}).front()});
+        }
     }
-    std::ranges::stable_sort(
-        lines, {}, [](const Line& line) { return std::tuple(line.object.is_contour, line.object.number == 0, line.object.number); });
+    std::ranges::stable_sort(lines, {}, [](const Line& line) {
+        const ChosenObject& object = line.object;
+        return std::tuple(object.polarity, object.is_contour, object.number == 0, object.number);
+    });
     return lines;
 }
 
-void print_json(const Arguments& arguments, Terminal& terminal, const Source& source, const std::vector<Line>& lines) {
-    Json json = document("name", source.info());
-    json["polarity"] = name_of(polarity_of(source.info()));
-    json["file"] = names_file(arguments, polarity_of(source.info()));
+void print_json(const Arguments& arguments, Terminal& terminal, Sides& sides, const std::vector<Line>& lines) {
+    Json json = document("name", sides.main().info());
+    json["polarity"] = name_of(sides.polarity());
+    json["file"] = names_file(arguments, sides.polarity());
     Json& list = json["names"] = Json::array();
     for (const auto& [name, object] : lines) {
         Json item{{"name", name.name}, {"reference", reference_of(object, true)}};
@@ -68,11 +77,11 @@ void print_text(Terminal& terminal, const std::vector<Line>& lines, const std::s
 }
 
 /// Takes names away and gives one.
-void change(const Arguments& arguments, ObjectDirectory& directory, const Source& source, std::vector<ObjectName>& names) {
-    const Scale scale(source.info());
-    for (const ChosenObject& object : directory.find(arguments.removed_names)) {
-        const auto removed = std::erase_if(names, [&](const ObjectName& name) {
-            return name.is_cavity == object.is_contour && name.voxel == object.voxel && name.isovalue == scale.reported(object.tau);
+void change(const Arguments& arguments, Sides& sides, NamesOfSides& names) {
+    const auto reported = [&](const ChosenObject& object) { return Scale(sides.source(object).info()).reported(object.tau); };
+    for (const ChosenObject& object : sides.find(arguments.removed_names)) {
+        const auto removed = std::erase_if(of(names, object.polarity), [&](const ObjectName& name) {
+            return name.is_cavity == object.is_contour && name.voxel == object.voxel && name.isovalue == reported(object);
         });
         if (removed > 0) continue;
         throw Error(ErrorKind::not_found, {.file = arguments.file,
@@ -81,8 +90,14 @@ void change(const Arguments& arguments, ObjectDirectory& directory, const Source
     }
     if (arguments.part.empty()) return;
     const ObjectReference reference = parse_reference("the object", arguments.part[0]);
-    const ChosenObject object = directory.find({&reference, 1}).front();
-    set_object_name(names, {arguments.part[1], object.voxel, scale.reported(object.tau), object.is_contour});
+    const ChosenObject object = sides.find({&reference, 1}).front();
+    const Polarity other = object.polarity == Polarity::high ? Polarity::low : Polarity::high;
+    if (find_object_name(of(names, other), arguments.part[1]) != nullptr) {
+        throw Error(ErrorKind::usage, {.file = arguments.file,
+                                       .what = "an object of " + std::string(name_of(other)) + " values has the name " + arguments.part[1],
+                                       .next = "choose another name, or take it away: --remove " + shell_word(arguments.part[1])});
+    }
+    set_object_name(of(names, object.polarity), {arguments.part[1], object.voxel, reported(object), object.is_contour});
 }
 
 }  // namespace
@@ -90,21 +105,25 @@ void change(const Arguments& arguments, ObjectDirectory& directory, const Source
 int run_name(const Arguments& arguments, Terminal& terminal) {
     check_arguments(arguments);
     if (arguments.part.size() == 2) check_object_name(arguments.part[1]);
-    Source source(arguments, terminal);
-    const std::string file = names_file(arguments, polarity_of(source.info()));
-    std::vector<ObjectName> names = read_object_names(file, source.info().extent);
-    ObjectDirectory directory(arguments, source, terminal);
-    const std::vector<ObjectName> before = names;
-    change(arguments, directory, source, names);
-    if (names != before) {
-        const WritingGuard guard;
-        write_object_names(file, source.info().extent, names);
+    Sides sides(arguments, terminal);
+    const Extent extent = sides.main().info().extent;
+    NamesOfSides names;
+    for (const Polarity polarity : {Polarity::high, Polarity::low}) {
+        const bool is_asked = !arguments.polarity || arguments.side() == polarity;
+        if (is_asked && sides.holds(polarity)) of(names, polarity) = read_object_names(names_file(arguments, polarity), extent);
     }
-    const std::vector<Line> lines = lines_of(directory, names);
+    NamesOfSides before = names;
+    change(arguments, sides, names);
+    for (const Polarity polarity : {Polarity::high, Polarity::low}) {
+        if (of(names, polarity) == of(before, polarity)) continue;
+        const WritingGuard guard;
+        write_object_names(names_file(arguments, polarity), extent, of(names, polarity));
+    }
+    const std::vector<Line> lines = lines_of(sides, names);
     if (arguments.json) {
-        print_json(arguments, terminal, source, lines);
+        print_json(arguments, terminal, sides, lines);
     } else {
-        print_text(terminal, lines, file);
+        print_text(terminal, lines, names_file(arguments, sides.polarity()));
     }
     return 0;
 }

@@ -36,7 +36,9 @@ Json entry_json(const ObjectTable& table, std::size_t i, const VolumeInfo& info,
     const ObjectEntry& entry = table.entries[i];
     const Scale scale(info);
     Json json{{"id", entry.id}, {"event", entry.event.number()}};
-    add_number_and_name(json, directory.number_of(entry), directory.name_of(entry));
+    const std::int64_t number = directory.number_of(entry);
+    add_number_and_name(json, number, directory.name_of(entry));
+    json["reference"] = with_polarity(number == 0 ? voxel_word(entry.id) : std::to_string(number), polarity_of(info));
     add_isovalues(json, entry, scale);
     const std::optional<RecommendedIsovalue> best = isovalue_of(table, entry);
     json["reason"] = best ? Json(name_of(best->reason)) : Json(nullptr);

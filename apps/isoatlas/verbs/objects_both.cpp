@@ -4,8 +4,7 @@
 #include <fmt/format.h>
 
 #include "data/assume_inputs.h"
-#include "data/object_directory.h"
-#include "data/source.h"
+#include "data/sides.h"
 #include "text/document.h"
 #include "text/entry_json.h"
 #include "text/sizes.h"
@@ -19,31 +18,22 @@ namespace {
 
 constexpr std::int64_t kListedTogether = 24;
 
-Arguments of_side(const Arguments& arguments, PolarityChoice polarity) {
-    Arguments own = arguments;
-    own.polarity = polarity;
-    if (polarity == PolarityChoice::high) return own;
-    if (own.missing.action == MissingPolicy::Action::below) own.missing.action = MissingPolicy::Action::above;
-    if (own.inputs.missing_of_low) own.missing = *own.inputs.missing_of_low;
-    return own;
-}
-
-/// How the entries of a table are called: in the list as with --polarity high or --polarity low.
+/// How the entries of a table are called.
 struct Called {
     std::vector<std::int64_t> numbers;    ///< 0: none
-    std::vector<std::string> references;  ///< "2"; without a number the voxel
+    std::vector<std::string> references;  ///< "2", "low2"; without a number the voxel
     std::vector<std::string> names;       ///< that a user gave; empty: none
 };
 
-/// own: of the polarity of source and table.
 Called find_called(const Arguments& own, Source& source, Terminal& terminal, const ObjectTable& table) {
     ObjectDirectory directory(own, source, terminal);
+    const Polarity polarity = polarity_of(source.info());
     Called called;
     for (const ObjectEntry& entry : table.entries) {
         const bool is_numbered = !own.all && !own.selects;
         const std::int64_t number = is_numbered ? std::ssize(called.numbers) + 1 : directory.number_of(entry);
         called.numbers.push_back(number);
-        called.references.push_back(number == 0 ? voxel_word(entry.id) : std::to_string(number));
+        called.references.push_back(with_polarity(number == 0 ? voxel_word(entry.id) : std::to_string(number), polarity));
         called.names.push_back(directory.name_of(entry));
     }
     return called;
@@ -96,7 +86,7 @@ private:
 Tables find_tables(const Arguments& arguments, Terminal& terminal) {
     Tables tables;
     {
-        const Arguments own = of_side(arguments, PolarityChoice::high);
+        const Arguments own = of_side(arguments, Polarity::high);
         Source source(own, terminal);
         tables.high = source.objects_and_cavities(rank_options(own, source));
         tables.high_called = find_called(own, source, terminal, tables.high.objects);
@@ -104,7 +94,7 @@ Tables find_tables(const Arguments& arguments, Terminal& terminal) {
         tables.range = source.range();
         tables.reads = source.reads();
     }
-    Arguments own = of_side(arguments, PolarityChoice::low);
+    Arguments own = of_side(arguments, Polarity::low);
     own.quiet = true;  // the file is described already
     own.inputs.assumed.clear();
     Source source(own, terminal);
@@ -148,6 +138,7 @@ Json object_json(const Tables& tables, const RankedObject& object) {
     const Scale scale(info);
     Json json{{"polarity", name_of(object.polarity)}, {"id", entry.id}, {"event", entry.event.number()}};
     add_number_and_name(json, called.numbers[object.entry], called.names[object.entry]);
+    json["reference"] = called.references[object.entry];
     add_isovalues(json, entry, scale);
     const std::optional<RecommendedIsovalue> best = isovalue_of(table, entry);
     json["reason"] = best ? Json(name_of(best->reason)) : Json(nullptr);
@@ -179,12 +170,12 @@ void print_list_json(Terminal& terminal, const Tables& tables) {
           [&](std::int64_t i) { return object_json(tables, list[static_cast<std::size_t>(i)]); });
 }
 
-/// Columns: number and name in the table of the polarity.
+/// Columns: reference to the table of the polarity, and name.
 Table table_of(const Tables& tables) {
     const Sizes sizes(tables.info, std::max(largest_measure(tables.high.objects.entries), largest_measure(tables.low.entries)));
     const auto is_named = [&](const RankedObject& object) { return !tables.called(object.polarity).names[object.entry].empty(); };
     const bool has_name = std::ranges::any_of(tables.list, is_named);
-    std::vector<Table::Column> columns{{"polarity", true}, {"#"}};
+    std::vector<Table::Column> columns{{"polarity", true}, {"#", true}};
     if (has_name) columns.push_back({"name", true});
     columns.insert(columns.end(), {{"id"}, {"appears"}, {"merges"}, {"best tau" + in_unit(tables.info)}});
     sizes.add_titles(columns);
@@ -195,7 +186,7 @@ Table table_of(const Tables& tables) {
         const Called& called = tables.called(object.polarity);
         const std::int64_t number = called.numbers[object.entry];
         const Scale scale(tables.info_of(object.polarity));
-        std::vector<std::string> row{name_of(object.polarity), number == 0 ? "-" : std::to_string(number)};
+        std::vector<std::string> row{name_of(object.polarity), number == 0 ? "-" : called.references[object.entry]};
         if (has_name) row.push_back(called.names[object.entry]);
         row.insert(row.end(), {voxel_word(entry.id), scale.brief(entry.appears), scale.brief(entry.merges), tau_text(entry, scale)});
         sizes.add(row, entry.voxels, entry.measure, entry.tunnels, entry.cavities);
@@ -215,10 +206,9 @@ void print_list(Terminal& terminal, const Arguments& arguments, const Tables& ta
     if (const std::string advice = noise_advice(arguments, tables.info); !advice.empty()) terminal.say("note: " + advice);
     if (tables.list.empty()) return terminal.say("no object is above the noise level; --all lists all objects");
     const RankedObject& first = tables.list[0];
-    const Arguments own = of_side(arguments, first.polarity == Polarity::low ? PolarityChoice::low : PolarityChoice::high);
     const bool has_number = tables.called(first.polarity).numbers[first.entry] != 0;
     const std::string at = has_number ? "" : "@" + tau_text(tables.entry(first), Scale(tables.info_of(first.polarity)));
-    terminal.next(fmt::format("isoatlas extract {}{} --object {}{} -o object.ply", shell_word(arguments.file), reading_options(own),
+    terminal.next(fmt::format("isoatlas extract {}{} --object {}{} -o object.ply", shell_word(arguments.file), reading_options(arguments),
                               tables.reference(0), at));
 }
 

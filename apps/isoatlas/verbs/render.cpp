@@ -4,7 +4,7 @@
 #include <fmt/format.h>
 
 #include "data/picture.h"
-#include "data/source.h"
+#include "data/sides.h"
 #include "text/document.h"
 #include "text/interrupt.h"
 #include "text/terminal.h"
@@ -83,9 +83,10 @@ std::string contents_text(const Scene& scene) {
 
 int run_render(const Arguments& arguments, Terminal& terminal) {
     check_output(arguments, {".png", ".webp"});
-    Source source(arguments, terminal);
+    Sides sides(arguments, terminal);
+    Source& source = sides.main();
     const PictureArguments& picture = arguments.picture;
-    Scene scene = scene_of(arguments, source, terminal);
+    Scene scene = scene_of(arguments, sides);
     const RenderOptions options = options_of_picture(picture);
     Camera camera;
     Image image;

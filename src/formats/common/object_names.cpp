@@ -34,8 +34,9 @@ bool is_digits(std::string_view text) {
     return !text.empty() && std::ranges::all_of(text, [](char c) { return c >= '0' && c <= '9'; });
 }
 
-/// 2, c2, v2
+/// 2, c2, v2; low2, lowc2, lowv2
 bool is_reference(std::string_view name) {
+    if (name.starts_with("low")) name.remove_prefix(3);
     return is_digits(name) || ((name.starts_with('c') || name.starts_with('v')) && is_digits(name.substr(1)));
 }
 

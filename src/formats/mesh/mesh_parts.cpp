@@ -37,11 +37,18 @@ KeyValues pairs_of(const MeshParts& parts) {
     if (!parts.named) pairs.emplace_back("tau", number_text(first.reported_tau));
     pairs.emplace_back("space", one_line(parts.space));
     if (!parts.unit.empty()) pairs.emplace_back("unit", one_line(parts.unit));
-    for (const auto& pair : key_values(connectivity_of(first))) pairs.push_back(pair);
+    for (const auto& pair : key_values(connectivity_of(parts))) pairs.push_back(pair);
     return pairs;
 }
 
 }  // namespace
+
+Connectivity connectivity_of(const MeshParts& parts) {
+    Connectivity all = connectivity_of(parts.parts.front().surface());
+    const auto is_high = [](const MeshPart& part) { return part.surface().polarity == Polarity::high; };
+    if (std::ranges::any_of(parts.parts, is_high)) all.polarity = Polarity::high;
+    return all;
+}
 
 std::string turned_space(const std::string& space, PointSpace wanted) {
     if (wanted == PointSpace::volume || !is_anatomical(space)) return space;

@@ -69,6 +69,9 @@ struct MeshParts {
 [[nodiscard]] MeshParts mesh_parts(const Surface& surface, const SurfaceFileOptions& options, const std::string& file);
 [[nodiscard]] MeshParts mesh_parts(std::span<const NamedSurface> surfaces, const SurfaceFileOptions& options, const std::string& file);
 
+/// Of all parts; of low values when all of them are.
+[[nodiscard]] Connectivity connectivity_of(const MeshParts& parts);
+
 /// Of the points in a file.
 [[nodiscard]] std::string turned_space(const std::string& space, PointSpace wanted);
 

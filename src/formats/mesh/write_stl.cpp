@@ -26,7 +26,7 @@ std::array<float, 3> facet_normal(const Corner& a, const Corner& b, const Corner
 /// 3D Slicer looks for "SPACE=LPS" or "SPACE=RAS": first, because the end may be cut off.
 std::string header_words(const MeshParts& parts, const char* generator, std::string (*number)(double)) {
     const Surface& first = parts.parts.front().surface();
-    const Connectivity connectivity = connectivity_of(first);
+    const Connectivity connectivity = connectivity_of(parts);
     std::string text = generator;
     if (parts.says_space()) text += " SPACE=" + parts.space;
     if (!parts.named) text += " tau " + number(first.reported_tau);

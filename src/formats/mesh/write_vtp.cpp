@@ -104,7 +104,7 @@ std::string field_data(AppendedArrays& arrays, const MeshParts& parts) {
         for (const MeshPart& part : parts.parts) names.push_back(part.name);
         text += vtk_strings("ObjectName", names);
     }
-    return text + vtk_elements(arrays, connectivity_of(parts.parts.front().surface())) + "</FieldData>\n";
+    return text + vtk_elements(arrays, connectivity_of(parts)) + "</FieldData>\n";
 }
 
 }  // namespace

@@ -97,8 +97,10 @@ std::string extent_text(const Box& box) {
     return text;
 }
 
+/// polarity: of the volume.
+bool is_of_low_values(const Segment& segment, Polarity polarity) { return polarity == Polarity::low || segment.polarity == Polarity::low; }
+
 KeyValues slicer_pairs(std::span<const Segment> segments, const std::vector<Box>& boxes, Polarity polarity) {
-    const std::string side = polarity == Polarity::low ? "isoatlas.polarity:low|" : "";
     KeyValues pairs;
     for (std::size_t i = 0; i < segments.size(); ++i) {
         const Segment& segment = segments[i];
@@ -114,7 +116,8 @@ KeyValues slicer_pairs(std::span<const Segment> segments, const std::vector<Box>
         pairs.emplace_back(key + "Layer", "0");
         pairs.emplace_back(key + "Extent", extent_text(boxes[i]));
         pairs.emplace_back(key + "Tags", "isoatlas.isovalue:" + number_text(segment.isovalue) + "|isoatlas.number:" + number +
-                                             "|isoatlas.voxels:" + std::to_string(segment.voxels) + "|" + side);
+                                             "|isoatlas.voxels:" + std::to_string(segment.voxels) + "|" +
+                                             (is_of_low_values(segment, polarity) ? "isoatlas.polarity:low|" : ""));
     }
     pairs.emplace_back("Segmentation_ContainedRepresentationNames", "Binary labelmap|");
     pairs.emplace_back("Segmentation_MasterRepresentation", "Binary labelmap");
@@ -130,12 +133,14 @@ std::string csv_cell(const std::string& text) {
 }
 
 std::string table_text(std::span<const Segment> segments, Polarity polarity) {
-    const bool is_low = polarity == Polarity::low;
-    std::string text = std::string(kTableHeader) + (is_low ? ",polarity\n" : "\n");
+    const auto is_low = [polarity](const Segment& segment) { return is_of_low_values(segment, polarity); };
+    const bool tells = std::ranges::any_of(segments, is_low);
+    std::string text = std::string(kTableHeader) + (tells ? ",polarity\n" : "\n");
     for (const Segment& segment : segments) {
         text += std::to_string(segment.number) + "," + csv_cell(name_of_segment(segment));
         for (const std::uint8_t channel : segment.colour) text += "," + std::to_string(channel);
-        text += "," + number_text(segment.isovalue) + "," + std::to_string(segment.voxels) + (is_low ? ",low\n" : "\n");
+        text += "," + number_text(segment.isovalue) + "," + std::to_string(segment.voxels) +
+                (tells ? is_low(segment) ? ",low" : ",high" : "") + "\n";
     }
     return text;
 }
