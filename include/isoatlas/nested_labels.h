@@ -33,4 +33,8 @@ struct NestedSource {
 /// voxels.
 [[nodiscard]] std::vector<std::uint32_t> nested_labels(std::int64_t voxels, std::span<const NestedPart> parts, const NestedSource& source);
 
+/// Adds labels of other objects, which may overlap those that are there: objects of low values. A voxel that both hold gets the label that
+/// fewer voxels have, each counted where it was given; of equal ones that which was there. No label is in both. Cost: two passes.
+void overlay_labels(std::vector<std::uint32_t>& labels, std::span<const std::uint32_t> more);
+
 }  // namespace isoatlas

@@ -19,19 +19,23 @@ struct PageSmoothing {
 };
 
 struct PageOptions {
-    std::int64_t top = 24;             ///< at most so many pictures of objects
-    std::int64_t top_cavities = 12;    ///< and of cavities
-    std::int64_t picture_size = 256;   ///< pixels of a side, 32 to 1024
-    std::int64_t frames = 12;          ///< of a turntable, 1 to 64
-    std::vector<ObjectName> names{};   ///< that users have given
-    std::string source{};              ///< the file in commands on the page: the volume or the store; empty: the store
-    std::vector<std::string> notes{};  ///< sentences about the volume: what was assumed about its samples
+    std::int64_t top = 24;            ///< at most so many pictures of objects
+    std::int64_t top_cavities = 12;   ///< and of cavities
+    std::int64_t picture_size = 256;  ///< pixels of a side, 32 to 1024
+    std::int64_t frames = 12;         ///< of a turntable, 1 to 64
+    std::vector<ObjectName> names{};  ///< that users have given
+    /// The same store, open for objects of low values: both polarities in one list, without cavities.
+    const Atlas* low = nullptr;
+    std::vector<ObjectName> low_names{};  ///< of these
+    std::string source{};                 ///< the file in commands on the page: the volume or the store; empty: the store
+    std::vector<std::string> notes{};     ///< sentences about the volume: what was assumed about its samples
     std::optional<PageSmoothing> smoothing{};
 };
 
 struct PageReport {
     std::int64_t objects = 0;   ///< entries, with a picture each
     std::int64_t cavities = 0;  ///< of these: cavities
+    std::int64_t low = 0;       ///< of these: objects of low values
     std::int64_t hidden = 0;    ///< objects and cavities of the volume that have no picture
     std::int64_t bytes = 0;     ///< of the page
 };

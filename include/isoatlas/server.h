@@ -43,8 +43,9 @@ public:
     void stop();
 
     // Thread safe; shown by all open pages.
-    /// From now on requests are served from this store, which must live as long as this.
-    void open(const Atlas& atlas);
+    /// From now on requests are served from this store, which must live as long as this. low: the same store, open for objects of low
+    /// values, where both polarities are served.
+    void open(const Atlas& atlas, const Atlas* low = nullptr);
     /// Computes what every page requests first, from the store that is open, in advance; returns when it is done, has failed, or stop() was
     /// called. Requests meanwhile wait for the same result. Cost: the trees are read.
     void prepare(const Context& context = {});

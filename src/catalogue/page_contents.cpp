@@ -25,6 +25,7 @@ class Gatherer {
 public:
     Gatherer(const Atlas& atlas, const Overview& found, const PageOptions& options, const Context& context)
         : atlas_(atlas),
+          polarity_(polarity_of(atlas.info())),
           options_(options),
           context_(context),
           found_(found),
@@ -56,8 +57,8 @@ public:
 
 private:
     void finish(PageEntry& entry) const {
-        const bool is_cavity = contents_.branches[entry.branch].is_cavity;
-        entry.colour = is_cavity ? colour_of_cavity(entry.number) : colour_of_object(entry.number);
+        const bool is_cavity = contents_.branches[entry.branch].is_cavity, is_low = polarity_ == Polarity::low;
+        entry.colour = is_cavity != is_low ? colour_of_cavity(entry.number) : colour_of_object(entry.number);
         const ObjectName* name = find_object_name(options_.names, is_cavity, entry.id, atlas_.info().calibration.reported(entry.tau));
         if (name != nullptr) entry.name = name->name;
     }
@@ -85,7 +86,8 @@ private:
             place[i] = static_cast<std::int64_t>(contents_.branches.size());
             place_of_top_.emplace(b.top, place[i]);
             const auto number = number_of_top.find(b.top);
-            contents_.branches.push_back({.id = b.id,
+            contents_.branches.push_back({.polarity = polarity_,
+                                          .id = b.id,
                                           .number = number == number_of_top.end() ? 0 : number->second,
                                           .rank = static_cast<std::int64_t>(i),
                                           .appears = b.appears,
@@ -146,6 +148,7 @@ private:
             const std::int64_t inside = entry.inside < static_cast<std::int64_t>(cavities.entries.size()) ? entry.inside : -1;
             const auto branch = static_cast<std::int64_t>(contents_.branches.size());
             contents_.branches.push_back({.is_cavity = true,
+                                          .polarity = polarity_,
                                           .id = entry.id,
                                           .number = branch - first_branch + 1,
                                           .rank = branch - first_branch,
@@ -192,6 +195,7 @@ private:
     }
 
     const Atlas& atlas_;
+    const Polarity polarity_;
     const PageOptions& options_;
     const Context& context_;
     const Overview& found_;
@@ -214,20 +218,23 @@ Surface surface_of(const Atlas& atlas, bool is_cavity, const PageEntry& entry, c
     return atlas.extract(entry.tau, chosen, context);
 }
 
-void draw_pictures(PageContents& contents, const Atlas& atlas, const PageOptions& options, const Context& context) {
+void draw_pictures(PageContents& contents, const StoreSides& sides, const PageOptions& options, const Context& context) {
     Context silent = context;
     silent.progress = nullptr;
     std::vector<PageEntry>& entries = contents.entries;
     std::optional<Volume> image;
-    if (atlas.info().extent.rank == 2) image = atlas.volume(silent);
+    const bool is_flat = sides.main.info().extent.rank == 2;
     for (std::size_t i = 0; i < entries.size(); ++i) {
         PageEntry& entry = entries[i];
         report(context, only_phase("draw"), static_cast<double>(i) / static_cast<double>(entries.size()));
-        if (image) {
+        const PageBranch& branch = contents.branches[entry.branch];
+        const Atlas& atlas = sides.of(branch.polarity);
+        if (is_flat) {
+            if (!image || polarity_of(image->info) != polarity_of(atlas.info())) image = atlas.volume(silent);
             entry.picture = draw_still(*image, entry.tau, entry.colour, options, silent);
             continue;
         }
-        Surface surface = surface_of(atlas, contents.branches[entry.branch].is_cavity, entry, silent);
+        Surface surface = surface_of(atlas, branch.is_cavity, entry, silent);
         entry.picture = draw_turntable(std::move(surface), entry.colour, options, silent);
     }
 }

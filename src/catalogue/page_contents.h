@@ -9,6 +9,7 @@
 #include "atlas/overview.h"
 #include "catalogue/count_columns.h"
 #include "catalogue/histogram.h"
+#include "catalogue/store_sides.h"
 #include "catalogue/turntable.h"
 #include "isoatlas/atlas.h"
 #include "isoatlas/cavities.h"
@@ -25,6 +26,7 @@ struct PageTunnel {
 /// A branch: an object for isovalues between appears and merges.
 struct PageBranch {
     bool is_cavity = false;
+    Polarity polarity = Polarity::high;  ///< of its stored values, too
     std::int64_t id = 0;
     std::int64_t number = 0;         ///< of its first entry in the table, from 1; 0: the table has none
     std::int64_t rank = 0;           ///< among all of its side, from 0: BranchHierarchy::branches(), CavityTable::entries
@@ -57,6 +59,17 @@ struct PageEntry {
     std::optional<IsovalueReason> reason{};  ///< reason of the isovalue, if known
     Turntable picture{};
     Colour colour{};
+    bool is_background = false;  ///< isoatlas/objects.h; of pages of both polarities
+    bool is_enclosed = false;    ///< likewise: of low values, a cavity of `around`, if that is on the page
+    std::string border{};        ///< likewise: where it reaches the border
+};
+
+/// What a page of both polarities says of all objects of low values.
+struct PageSide {
+    std::int64_t objects = 0, significant_objects = 0;
+    double noise = 0;
+    SelectionCurve curve;
+    std::vector<CountColumn> spectrum;
 };
 
 struct PageContents {
@@ -72,6 +85,7 @@ struct PageContents {
     std::vector<std::string> notes;          ///< of PageOptions
     std::optional<PageSmoothing> smoothing;  ///< of PageOptions
     bool exact_tunnels = false;              ///< the pairs of catalogue/longest_tunnels.h
+    std::optional<PageSide> low{};           ///< of both polarities: all else is of high values, or of both (catalogue/joined_contents.h)
 };
 
 /// Without pictures. found: of this atlas. Throws as write_page(). Cost: Atlas::histogram(), O(events).
@@ -79,6 +93,6 @@ struct PageContents {
 /// The surface of an entry of a 3D volume. is_cavity: its id is that of a contour. Cost: Atlas::extract().
 [[nodiscard]] Surface surface_of(const Atlas& atlas, bool is_cavity, const PageEntry& entry, const Context& context);
 /// Cost: options.frames pictures for every entry.
-void draw_pictures(PageContents& contents, const Atlas& atlas, const PageOptions& options, const Context& context);
+void draw_pictures(PageContents& contents, const StoreSides& sides, const PageOptions& options, const Context& context);
 
 }  // namespace isoatlas

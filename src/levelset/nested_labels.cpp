@@ -54,7 +54,24 @@ void paint(std::vector<std::uint32_t>& labels, std::span<const NestedPart> parts
     }
 }
 
+std::vector<std::int64_t> voxels_of_labels(std::span<const std::uint32_t> labels) {
+    std::vector<std::int64_t> voxels;
+    for (const std::size_t v : streamed(labels.size(), {sizeof(std::uint32_t)})) {
+        if (labels[v] >= voxels.size()) voxels.resize(std::size_t{labels[v]} + 1, 0);
+        ++voxels[labels[v]];
+    }
+    return voxels;
+}
+
 }  // namespace
+
+void overlay_labels(std::vector<std::uint32_t>& labels, std::span<const std::uint32_t> more) {
+    const std::vector<std::int64_t> there = voxels_of_labels(labels), added = voxels_of_labels(more);
+    for (const std::size_t v : streamed(labels.size(), {2 * sizeof(std::uint32_t)})) {
+        const std::uint32_t label = more[v];
+        if (label != 0 && (labels[v] == 0 || added[label] < there[labels[v]])) labels[v] = label;
+    }
+}
 
 std::vector<std::uint32_t> nested_labels(std::int64_t voxels, std::span<const NestedPart> parts, const NestedSource& source) {
     check(voxels, parts);

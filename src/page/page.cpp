@@ -5,6 +5,7 @@
 #include <set>
 
 #include "base/atomic_file.h"
+#include "catalogue/joined_contents.h"
 #include "catalogue/longest_tunnels.h"
 #include "isoatlas/environment.h"
 #include "page/page_json.h"
@@ -35,9 +36,11 @@ PageReport report_of(const PageContents& contents) {
     for (const PageEntry& entry : contents.entries) {
         shown.insert(entry.branch);
         report.cavities += contents.branches[entry.branch].is_cavity;
+        report.low += contents.branches[entry.branch].polarity == Polarity::low;
     }
     report.objects = static_cast<std::int64_t>(contents.entries.size());
-    report.hidden = contents.objects + contents.cavities - static_cast<std::int64_t>(shown.size());
+    report.hidden =
+        contents.objects + contents.cavities + (contents.low ? contents.low->objects : 0) - static_cast<std::int64_t>(shown.size());
     return report;
 }
 
@@ -51,14 +54,18 @@ PageReport write_page(const std::string& path, const Atlas& atlas, const PageOpt
                                              .next = "install npm and build it again with its pages",
                                              .reason = Reason::built_without_web});
     }
-    PageContents contents = page_contents(atlas, overview_of(atlas, context), options, context);
+    const StoreSides sides{atlas, options.low};
+    PageContents contents = sides.has_both()
+                                ? joined_contents(sides, overview_of(atlas, context), overview_of(*sides.low, context), options, context)
+                                : page_contents(atlas, overview_of(atlas, context), options, context);
     add_tunnels(contents, atlas, context);
-    draw_pictures(contents, atlas, options, context);
+    if (sides.has_both()) add_tunnels(contents, *sides.low, context);
+    draw_pictures(contents, sides, options, context);
     contents.notes = options.notes;
     contents.smoothing = options.smoothing;
     std::string json;
     JsonStream stream([&json](std::string_view text) { json += text; });
-    write_page_json(stream, atlas, contents, options.source.empty() ? atlas.info().path : options.source);
+    write_page_json(stream, sides, contents, options.source.empty() ? atlas.info().path : options.source);
     const std::string_view page = page_template(), mark = R"(<script id="atlas-data" type="application/json">null</script>)";
     const std::size_t at = page.find(mark), data = at + mark.find("null");
     AtomicFile file(path);

@@ -42,20 +42,22 @@ void put_array(JsonStream& json, const char* name, const Items& items, const Of&
 
 class Writer {
 public:
-    Writer(JsonStream& json, const Atlas& atlas, const PageContents& contents, const std::string& source)
-        : json_(json), atlas_(atlas), contents_(contents), scale_(atlas.info().calibration), source_(command_source(atlas, source)) {}
+    Writer(JsonStream& json, const StoreSides& sides, const PageContents& contents, const std::string& source)
+        : json_(json), sides_(sides), atlas_(sides.main), contents_(contents), scale_(atlas_.info().calibration), source_(source) {}
 
     void write() {
         json_.begin_object().key("schema").value("isoatlas/page/3").key("version").value(ISOATLAS_VERSION).line();
         write_volume();
         write_notes();
         json_.key("interpolant").value(name_of(atlas_.interpolant()));
-        json_.key("polarity").value(name_of(polarity_of(atlas_.info())));
+        json_.key("polarity").value(sides_.has_both() ? name_of(PolarityChoice::both) : name_of(polarity_of(atlas_.info())));
         write_counts();
         write_axis();
         json_.line().key("spectrum");
         put_columns(contents_.spectrum, true);
-        write_curve();
+        json_.line().key("curve");
+        write_curve(contents_.curve);
+        if (contents_.low) write_low_side(*contents_.low);
         json_.line().key("branches").begin_array();
         for (const PageBranch& branch : contents_.branches) write_branch(branch);
         json_.end_array().line().key("entries").begin_array();
@@ -194,9 +196,19 @@ private:
         json_.end_object();
     }
 
-    void write_curve() {
-        const SelectionCurve& curve = contents_.curve;
-        json_.line().key("curve").begin_object();
+    void write_low_side(const PageSide& side) {
+        use_values_of(Polarity::low);
+        json_.line().key("low").begin_object().key("found").begin_object();
+        json_.key("all").value(side.objects).key("significant").value(side.significant_objects).end_object();
+        json_.key("noise").value(scale_.reported_difference(side.noise)).key("spectrum");
+        put_columns(side.spectrum, true);
+        json_.key("curve");
+        write_curve(side.curve);
+        json_.end_object();
+    }
+
+    void write_curve(const SelectionCurve& curve) {
+        json_.begin_object();
         put_array(json_, "threshold", curve.threshold, [&](double size) { return scale_.reported_difference(size); });
         put_array(json_, "kept", curve.kept, [](std::int64_t kept) { return kept; });
         json_.key("automaticThreshold").value(scale_.reported_difference(curve.automatic_threshold));
@@ -204,7 +216,9 @@ private:
     }
 
     void write_branch(const PageBranch& branch) {
+        use_values_of(branch.polarity);
         json_.line().begin_object().key("side").value(branch.is_cavity ? "cavity" : "object").key("id").value(branch.id);
+        if (sides_.has_both()) json_.key("polarity").value(name_of(branch.polarity));
         put_number(branch.number);
         json_.key("rank").value(branch.rank);
         put_value("appears", branch.appears);
@@ -254,8 +268,10 @@ private:
 
     void write_entry(std::size_t i) {
         const PageEntry& entry = contents_.entries[i];
+        use_values_of(polarity_of_entry(entry));
         json_.line().begin_object().key("branch").value(entry.branch);
         put_number(entry.number);
+        json_.key("reference").value(reference_of(entry));
         put_text(json_.key("name"), entry.name);
         json_.key("id").value(entry.id);
         put_value("tau", entry.tau);
@@ -264,6 +280,10 @@ private:
         json_.key("tunnels").value(entry.tunnels).key("cavities").value(entry.cavities);
         json_.key("inside").value(entry.inside).key("around").value(entry.around);
         json_.key("reason").value(entry.reason ? name_of(*entry.reason) : "").key("why").value(entry.reason ? text_of(*entry.reason) : "");
+        if (sides_.has_both()) {
+            json_.key("background").value(entry.is_background).key("enclosed").value(entry.is_enclosed);
+            json_.key("border").value(entry.border);
+        }
         json_.key("colour").value(web_colour(entry.colour)).line().key("picture");
         if (entry.picture.image.empty()) {
             json_.null();
@@ -278,25 +298,37 @@ private:
 
     void write_commands(std::size_t i) {
         const PageEntry& entry = contents_.entries[i];
-        const std::string number = std::to_string(entry.number), tau = number_text(scale_.reported(entry.tau));
+        const std::string reference = reference_of(entry), tau = number_text(scale_.reported(entry.tau));
+        const std::string object = " --object " + reference;
+        const std::string all = command_source(sides_.of(polarity_of_entry(entry)), source_);  // without a reference
         const auto put = [&](const char* name, const std::string& verb, const std::string& options) {
-            json_.begin_object().key("name").value(name).key("line").value("isoatlas " + verb + " " + source_ + options).end_object();
+            const std::string source = options.starts_with(object) ? shell_word(source_) : all;
+            json_.begin_object().key("name").value(name).key("line").value("isoatlas " + verb + " " + source + options).end_object();
         };
         if (contents_.branches[entry.branch].is_cavity) {
-            const std::string object = " --object c" + number, name = " -o cavity-" + number;
+            const std::string number = std::to_string(entry.number), name = " -o cavity-" + number;
             put("its wall as a surface", "extract", object + name + ".ply");
             put("its label", "label", object + name + ".nrrd");
             put("labels of all cavities there", "label", " --cavities --tau " + tau + " -o cavities-" + number + ".nrrd");
             return;
         }
-        const std::string object = " --object " + number, name = " -o object-" + number;
+        const std::string name = " -o object-" + reference;
         put("surface", "extract", object + name + ".ply");
         put("its label", "label", object + name + ".nrrd");
-        put("labels of all objects there", "label", " --tau " + tau + " -o objects-" + number + ".nrrd");
+        put("labels of all objects there", "label", " --tau " + tau + " -o objects-" + reference + ".nrrd");
         put("picture", "render", object + name + ".png");
     }
 
+    /// Stored values are those of one polarity.
+    void use_values_of(Polarity polarity) { scale_ = sides_.of(polarity).info().calibration; }
+    [[nodiscard]] Polarity polarity_of_entry(const PageEntry& entry) const { return contents_.branches[entry.branch].polarity; }
+    [[nodiscard]] std::string reference_of(const PageEntry& entry) const {
+        const PageBranch& branch = contents_.branches[entry.branch];
+        return std::string(branch.polarity == Polarity::low ? "low" : "") + (branch.is_cavity ? "c" : "") + std::to_string(entry.number);
+    }
+
     JsonStream& json_;
+    const StoreSides& sides_;
     const Atlas& atlas_;
     const PageContents& contents_;
     Calibration scale_;
@@ -310,8 +342,8 @@ std::string command_source(const Atlas& atlas, const std::string& source) {
     return shell_word(source) + (needs_side ? " --polarity low" : "");
 }
 
-void write_page_json(JsonStream& json, const Atlas& atlas, const PageContents& contents, const std::string& source) {
-    Writer(json, atlas, contents, source).write();
+void write_page_json(JsonStream& json, const StoreSides& sides, const PageContents& contents, const std::string& source) {
+    Writer(json, sides, contents, source).write();
 }
 
 }  // namespace isoatlas

@@ -12,6 +12,6 @@ namespace isoatlas {
 [[nodiscard]] std::string command_source(const Atlas& atlas, const std::string& source);
 
 /// source: file named in commands.
-void write_page_json(JsonStream& json, const Atlas& atlas, const PageContents& contents, const std::string& source);
+void write_page_json(JsonStream& json, const StoreSides& sides, const PageContents& contents, const std::string& source);
 
 }  // namespace isoatlas

@@ -39,10 +39,10 @@ void put_build(JsonStream& json, const BuildState& build) {
 
 }  // namespace
 
-std::string atlas_json(const Atlas& atlas, const PageContents& contents) {
+std::string atlas_json(const StoreSides& sides, const PageContents& contents) {
     std::string text;
     JsonStream json([&text](std::string_view piece) { text += piece; });
-    write_page_json(json, atlas, contents, atlas.info().path);
+    write_page_json(json, sides, contents, sides.main.info().path);
     return text;
 }
 

@@ -18,7 +18,7 @@
 namespace isoatlas {
 
 /// The data of the page of `isoatlas FILE`.
-[[nodiscard]] std::string atlas_json(const Atlas& atlas, const PageContents& contents);
+[[nodiscard]] std::string atlas_json(const StoreSides& sides, const PageContents& contents);
 /// An object requested by its highest voxel, and the object that contains this voxel.
 struct NamedObject {
     std::optional<std::int64_t> id{};  ///< nullopt: none was requested

@@ -16,6 +16,7 @@ namespace isoatlas {
 struct CardSubject {
     std::string name;
     bool is_cavity = false;
+    Polarity polarity = Polarity::high;
     PageEntry entry{};
 };
 

@@ -137,7 +137,7 @@ void Server::stop() {
     data_->network.stop();
 }
 
-void Server::open(const Atlas& atlas) { data_->service.store_state().open(atlas); }
+void Server::open(const Atlas& atlas, const Atlas* low) { data_->service.store_state().open(atlas, low); }
 void Server::prepare(const Context& context) {
     try {
         data_->service.prepare(context);

@@ -17,9 +17,9 @@ public:
     explicit Naming(bool is_read_only) : is_read_only_(is_read_only) {}
 
     /// docs/schema/server-names. Throws Error{input} for a damaged file.
-    [[nodiscard]] Response names(const Atlas& atlas, const Request& request) const;
+    [[nodiscard]] Response names(const StoreSides& sides, const Request& request) const;
     /// Gives a name, or takes it away: an empty one. The answer is that of names(). Throws Error: usage, not_found, input, resource.
-    [[nodiscard]] Response change(const Atlas& atlas, const NumberedLines& lines, const Request& request);
+    [[nodiscard]] Response change(const NumberedSides& sides, const Request& request);
     /// No names of a damaged file.
     [[nodiscard]] static std::vector<ObjectName> usable_names(const Atlas& atlas);
 

@@ -11,10 +11,23 @@
 namespace isoatlas {
 namespace {
 
+constexpr std::string_view kLow = "low";
+
+const Atlas& atlas_of(const NumberedSides& sides, Polarity polarity) {
+    const Atlas& found = sides.atlas(polarity);
+    if (polarity_of(found.info()) == polarity) return found;
+    throw Error(ErrorKind::not_found, {.where = "polarity",
+                                       .what = std::string("the store does not hold objects of ") + name_of(polarity) + " values",
+                                       .next = "build another one from the volume, of both polarities",
+                                       .reason = Reason::polarity_not_stored,
+                                       .value = name_of(polarity)});
+}
+
 [[noreturn]] void refuse(std::string_view name, std::string_view item) {
     refuse_parameter(name, item,
-                     name == "contour" ? "c and the number of a cavity, or v and a voxel; with an isovalue: c3, v218663@150"
-                                       : "a number of the table, or v and a voxel; with an isovalue: 2, v218663, 2@150");
+                     name == "contour"
+                         ? "c and the number of a cavity, or v and a voxel; with an isovalue: c3, v218663@150"
+                         : "a number of the table, or v and a voxel; with an isovalue, of low values with low: 2, v218663, low2@150");
 }
 
 const NumberedLines::Line& line_of(std::string_view name, std::int64_t number, const std::vector<NumberedLines::Line>& lines,
@@ -26,10 +39,13 @@ const NumberedLines::Line& line_of(std::string_view name, std::int64_t number, c
                                        .next = "/api/atlas lists the first ones"});
 }
 
-NamedPart part_of(std::string_view name, std::string_view item, const Atlas& atlas, const NumberedLines& lines) {
+NamedPart part_of(std::string_view name, std::string_view item, const NumberedSides& sides) {
     const std::size_t mark = std::min(item.find('@'), item.size());
     std::string_view word = item.substr(0, mark);
-    NamedPart part{.is_contour = name == "contour"};
+    NamedPart part{.is_contour = name == "contour", .polarity = sides.polarity};
+    if (word.starts_with(kLow)) word.remove_prefix(kLow.size()), part.polarity = Polarity::low;
+    const Atlas& atlas = atlas_of(sides, part.polarity);
+    const NumberedLines& lines = sides.lines(part.polarity);
     if (mark < item.size()) {
         const std::optional<double> tau = whole_text_as<double>(item.substr(mark + 1));
         if (!tau || !std::isfinite(*tau)) refuse(name, item);
@@ -62,26 +78,30 @@ NumberedLines numbered_lines(const ObjectTable& objects, const CavityTable& cavi
 }
 
 std::string title_of(const NamedPart& part) {
-    if (part.number == 0) return (part.is_contour ? "contour v" : "v") + std::to_string(part.voxel);
-    return (part.is_contour ? "cavity " : "object ") + std::to_string(part.number);
+    const std::string low(part.polarity == Polarity::low ? kLow : "");
+    if (part.number == 0) return (part.is_contour ? "contour " : "") + low + "v" + std::to_string(part.voxel);
+    return (part.is_contour ? "cavity " : "object ") + low + std::to_string(part.number);
 }
 
-std::vector<NamedPart> named_parts(QueryParameters& words, std::string_view name, const Atlas& atlas, const NumberedLines& lines,
-                                   std::size_t max) {
+std::vector<NamedPart> named_parts(QueryParameters& words, std::string_view name, const NumberedSides& sides, std::size_t max) {
     std::vector<NamedPart> parts;
-    for (const std::string_view item : words.items(name, max)) parts.push_back(part_of(name, item, atlas, lines));
+    for (const std::string_view item : words.items(name, max)) parts.push_back(part_of(name, item, sides));
     return parts;
 }
 
-std::vector<NamedPart> named_parts(QueryParameters& words, const Atlas& atlas, const NumberedLines& lines, std::size_t max) {
-    std::vector<NamedPart> parts = named_parts(words, "object", atlas, lines, max);
-    for (const NamedPart& part : named_parts(words, "contour", atlas, lines, max)) parts.push_back(part);
+std::vector<NamedPart> named_parts(QueryParameters& words, const NumberedSides& sides, std::size_t max) {
+    std::vector<NamedPart> parts = named_parts(words, "object", sides, max);
+    for (const NamedPart& part : named_parts(words, "contour", sides, max)) parts.push_back(part);
     return parts;
 }
 
-std::vector<std::int64_t> voxels_of(const std::vector<NamedPart>& parts) {
+std::vector<std::int64_t> voxels_of(const std::vector<NamedPart>& parts, Polarity polarity) {
     std::vector<std::int64_t> voxels;
     for (const NamedPart& part : parts) {
+        if (part.polarity != polarity)
+            throw Error(ErrorKind::usage, {.where = part.is_contour ? "contour" : "object",
+                                           .what = "this request is about objects of " + std::string(name_of(polarity)) + " values",
+                                           .next = "add polarity=" + std::string(name_of(part.polarity))});
         if (part.has_own_tau)
             throw Error(ErrorKind::usage, {.where = part.is_contour ? "contour" : "object",
                                            .what = "this request has one isovalue for all",

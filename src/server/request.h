@@ -4,8 +4,10 @@
 #include <cstdint>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 
+#include "isoatlas/polarity.h"
 #include "server/event_stream.h"
 #include "server/job_queue.h"
 
@@ -18,6 +20,7 @@ struct Request {
     std::string client;                             ///< a newer surface request of a client supersedes its older one
     IsDisconnected is_disconnected{};               ///< has the client disconnected?
     bool is_change = false;                         ///< PUT: may change something
+    std::optional<Polarity> polarity{};  ///< which objects, the parameter `polarity`; none: of high values if the store holds them
 };
 
 struct Response {

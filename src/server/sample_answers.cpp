@@ -34,8 +34,8 @@ bool holds(const Atlas& atlas, const Locator& sample, const NamedPart& object, c
 }
 
 /// Every one with an isovalue.
-std::vector<NamedPart> parts_at(QueryParameters& words, std::string_view name, const Atlas& atlas, const NumberedLines& lines) {
-    std::vector<NamedPart> parts = named_parts(words, name, atlas, lines, kMaxLocated);
+std::vector<NamedPart> parts_at(QueryParameters& words, std::string_view name, const NumberedSides& sides) {
+    std::vector<NamedPart> parts = named_parts(words, name, sides, kMaxLocated);
     for (const NamedPart& part : parts) {
         if (!part.tau) missing(std::string(name), "v" + std::to_string(part.voxel) + "@T, with an isovalue");
     }
@@ -74,9 +74,8 @@ Response volume_answer(const Atlas& atlas, const Request& request, const Context
     return {200, kBytes, wire_volume(atlas.coarse(max, context), atlas.range(), atlas.info().calibration), {}};
 }
 
-Response at_answer(const Atlas& atlas, const std::vector<NamedEntry>& entries, const NumberedLines& lines, const Request& request,
-                   const Context& context) {
-    const VolumeInfo& info = atlas.info();
+Response at_answer(const NumberedSides& sides, const std::vector<NamedEntry>& entries, const Request& request, const Context& context) {
+    const VolumeInfo& info = sides.stores.main.info();
     const Extent& extent = info.extent;
     QueryParameters words(request.words);
     const std::vector<std::int64_t> at = words.list("voxel", 0, *std::ranges::max_element(extent.size) - 1, 3);
@@ -84,16 +83,21 @@ Response at_answer(const Atlas& atlas, const std::vector<NamedEntry>& entries, c
     for (std::size_t a = 0; a < 3; ++a) {
         if (at[a] >= extent.size[a]) missing("voxel", "less than " + std::to_string(extent.size[a]) + " along axis " + std::to_string(a));
     }
-    const std::vector<NamedPart> objects = parts_at(words, "object", atlas, lines), contours = parts_at(words, "contour", atlas, lines);
+    const std::vector<NamedPart> objects = parts_at(words, "object", sides), contours = parts_at(words, "contour", sides);
     words.reject_unknown();
-    const Locator sample(atlas, extent.index(at[0], at[1], at[2]), context);
+    const std::int64_t voxel = extent.index(at[0], at[1], at[2]);
+    const Locator sample(sides.stores.main, voxel, context);
+    const std::optional<Locator> low = sides.stores.has_both() ? std::optional(Locator(*sides.stores.low, voxel, context)) : std::nullopt;
+    const auto of = [&](Polarity polarity) -> const Locator& { return low && polarity == Polarity::low ? *low : sample; };
     AtVoxel found{.voxel = {at[0], at[1], at[2]}, .position = {}, .value = info.calibration.reported(sample.value())};
     found.position = to_physical(info.geometry, {static_cast<double>(at[0]), static_cast<double>(at[1]), static_cast<double>(at[2])});
-    for (const NamedPart& object : objects) found.objects.push_back(holds(atlas, sample, object, context));
-    for (const NamedPart& contour : contours) found.contours.push_back(sample.cavity(*contour.tau) == contour.voxel);
+    for (const NamedPart& object : objects)
+        found.objects.push_back(holds(sides.atlas(object.polarity), of(object.polarity), object, context));
+    for (const NamedPart& contour : contours) found.contours.push_back(of(contour.polarity).cavity(*contour.tau) == contour.voxel);
     for (std::size_t i = 0; i < entries.size(); ++i) {
         const NamedEntry& entry = entries[i];
-        const std::optional<std::int64_t> holder = entry.is_cavity ? sample.cavity(entry.tau) : sample.object(entry.tau);
+        const Locator& own = of(entry.polarity);
+        const std::optional<std::int64_t> holder = entry.is_cavity ? own.cavity(entry.tau) : own.object(entry.tau);
         if (holder == entry.id) found.entries.push_back(static_cast<std::int64_t>(i));
     }
     std::ranges::stable_sort(found.entries, {}, [&](std::int64_t i) { return entries[i].voxels; });

@@ -15,13 +15,14 @@ struct NamedEntry {
     double tau;       ///< stored
     std::int64_t voxels;
     bool is_cavity;
+    Polarity polarity = Polarity::high;
 };
 
 /// Requests of server/service.h. All throw Error: usage (query parameters), input (damaged store), cancelled. entries: in the order of
 /// /api/atlas.
 [[nodiscard]] Response slice_answer(const Atlas& atlas, const Request& request, const Context& context);
 [[nodiscard]] Response volume_answer(const Atlas& atlas, const Request& request, const Context& context);
-[[nodiscard]] Response at_answer(const Atlas& atlas, const std::vector<NamedEntry>& entries, const NumberedLines& lines,
-                                 const Request& request, const Context& context);
+[[nodiscard]] Response at_answer(const NumberedSides& sides, const std::vector<NamedEntry>& entries, const Request& request,
+                                 const Context& context);
 
 }  // namespace isoatlas

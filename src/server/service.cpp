@@ -63,6 +63,16 @@ bool only_voxels(std::string_view text) {
     return false;
 }
 
+/// The parameter `polarity`, which every request may have, as a member.
+Request with_polarity(const Request& request) {
+    Request own = request;
+    QueryParameters words(request.words);
+    if (const std::optional<std::string> side = words.choice("polarity", {"high", "low"}))
+        own.polarity = *side == "low" ? Polarity::low : Polarity::high;
+    own.words.erase("polarity");
+    return own;
+}
+
 double stored_tau(const Atlas& atlas, double reported) { return stored_isovalue(atlas.info(), reported); }
 
 }  // namespace
@@ -87,7 +97,7 @@ void Service::end() {
 
 Response Service::answer(const Request& request) {
     try {
-        return answer_known(request);
+        return answer_known(with_polarity(request));
     } catch (const Error& error) {
         return refusal(status_of(error.kind()), error);
     } catch (const std::bad_alloc&) {
@@ -127,11 +137,11 @@ Response Service::answer_known(const Request& request) {
     if (request.path == "/api/at") return at_answer(request);
     if (request.path == "/api/transfer") {
         QueryParameters(request.words).reject_unknown();
-        return json_answer(known(request).transfer);
+        return json_answer(side_of(request).transfer);
     }
     if (request.path == "/api/surfaces" || request.path == "/api/segmentation") return several_answer(request);
-    if (request.path == "/api/names") return naming_.names(atlas(), request);
-    if (request.path == "/api/name") return naming_.change(atlas(), known(request).lines, request);
+    if (request.path == "/api/names") return naming_.names(store_state_.sides(), request);
+    if (request.path == "/api/name") return naming_.change(numbered_sides(request), request);
     if (request.path == "/api/slice") return samples_answer(request, slice_answer);
     if (request.path == "/api/volume") return samples_answer(request, volume_answer);
     throw Error(ErrorKind::not_found, {.where = request.path.substr(0, 100),
@@ -143,13 +153,14 @@ Response Service::answer_known(const Request& request) {
 
 Response Service::samples_answer(const Request& request, Response (*make)(const Atlas&, const Request&, const Context&)) {
     const std::unique_ptr<JobQueue::Job> job = acquire_job(QueueClass::samples, request);
-    return make(atlas(), request, context_of(*job));
+    return make(atlas(request), request, context_of(*job));
 }
 
 Response Service::at_answer(const Request& request) {
     const StoreCatalogue& known = this->known(request);
+    const NumberedSides sides = numbered_sides(request);
     const std::unique_ptr<JobQueue::Job> job = acquire_job(QueueClass::samples, request);
-    return isoatlas::at_answer(atlas(), known.entries, known.lines, request, context_of(*job));
+    return isoatlas::at_answer(sides, known.entries, request, context_of(*job));
 }
 
 std::unique_ptr<JobQueue::Job> Service::acquire_job(QueueClass line, const Request& request) {
@@ -158,30 +169,53 @@ std::unique_ptr<JobQueue::Job> Service::acquire_job(QueueClass line, const Reque
 
 const StoreCatalogue& Service::known(const Request& request) {
     if (const StoreCatalogue* there = known_.there()) return *there;
-    (void)atlas();  // throws while there is no store
+    (void)store_state_.sides();  // throws while there is no store
     const std::unique_ptr<JobQueue::Job> job = acquire_job(QueueClass::atlas, request);
     return known(context_of(*job));
 }
 
 const StoreCatalogue& Service::known(const Context& context) {
-    return known_.get(context, [&atlas = atlas()](const Context& shared) { return load_catalogue(atlas, shared); });
+    return known_.get(context, [sides = store_state_.sides()](const Context& shared) { return load_catalogue(sides, shared); });
+}
+
+const Atlas& Service::atlas(const Request& request) const {
+    const StoreSides sides = store_state_.sides();
+    const Polarity wanted = request.polarity.value_or(polarity_of(sides.main.info()));
+    const Atlas& found = sides.of(wanted);
+    if (polarity_of(found.info()) == wanted) return found;
+    throw Error(ErrorKind::usage, {.where = "polarity",
+                                   .what = std::string("the store does not hold objects of ") + name_of(wanted) + " values",
+                                   .next = "omit it, or build a store of both polarities",
+                                   .reason = Reason::polarity_not_stored,
+                                   .value = name_of(wanted)});
+}
+
+const SideCatalogue& Service::side_of(const Request& request) { return known(request).of(polarity_of(atlas(request).info())); }
+
+NumberedSides Service::numbered_sides(const Request& request) {
+    const StoreCatalogue& known = this->known(request);
+    const Polarity polarity = polarity_of(atlas(request).info());
+    return {store_state_.sides(), known.main.lines, known.low ? &known.low->lines : nullptr, polarity};
 }
 
 void Service::prepare(const Context& context) {
     Context own = context_;
     own.cancelled = [&] { return ended_ || (context.cancelled && context.cancelled()); };
     const NamedEntry* first = first_of(known(own));
-    if (first == nullptr || atlas().info().extent.rank != 3) return;
+    const StoreSides sides = store_state_.sides();
+    if (first == nullptr || sides.main.info().extent.rank != 3) return;
+    const Atlas& atlas = sides.of(first->polarity);
     SurfaceOptions options;
     options.ids = false;
     options.objects = {first->id};
-    (void)first_.get(own, [&](const Context& shared) { return wire(extract(first->tau, options, shared), kFirstTriangles, shared); });
+    (void)first_.get(own,
+                     [&](const Context& shared) { return wire(extract(atlas, first->tau, options, shared), kFirstTriangles, shared); });
 }
 
-bool Service::is_first(double tau, const SurfaceOptions& options, std::int64_t max) const {
+bool Service::is_first(const Atlas& atlas, double tau, const SurfaceOptions& options, std::int64_t max) const {
     const StoreCatalogue* known = known_.there();
     const NamedEntry* first = known == nullptr ? nullptr : first_of(*known);
-    if (first == nullptr || max != kFirstTriangles) return false;
+    if (first == nullptr || max != kFirstTriangles || first->polarity != polarity_of(atlas.info())) return false;
     const bool is_alone = options.objects == std::vector{first->id} && options.contours.empty() && options.shell == ShellChoice::all;
     return is_alone && tau == first->tau && !options.ids;
 }
@@ -202,13 +236,14 @@ Response Service::preview_answer(const Request& request) {
     NamedObject named{objects.empty() ? std::nullopt : std::optional(objects[0])};
     (void)known(request);
     const std::unique_ptr<JobQueue::Job> job = acquire_job(QueueClass::trees, request);
-    const double stored = stored_tau(atlas(), tau);
+    const Atlas& atlas = this->atlas(request);
+    const double stored = stored_tau(atlas, tau);
     if (named.id) {
-        const std::vector<ActiveObject> there = atlas().active(stored, false, context_of(*job)).objects;
+        const std::vector<ActiveObject> there = atlas.active(stored, false, context_of(*job)).objects;
         const auto found = std::ranges::find(there, *named.id, &ActiveObject::id);
         if (found != there.end()) named.object = *found;
     }
-    return json_answer(preview_json(atlas().preview(stored, context_of(*job)), tau, named));
+    return json_answer(preview_json(atlas.preview(stored, context_of(*job)), tau, named));
 }
 
 Response Service::objects_answer(const Request& request) {
@@ -218,11 +253,12 @@ Response Service::objects_answer(const Request& request) {
     words.reject_unknown();
     (void)known(request);
     const std::unique_ptr<JobQueue::Job> job = acquire_job(QueueClass::trees, request);
-    return json_answer(active_json(atlas().active(stored_tau(atlas(), tau), false, context_of(*job)), tau, top));
+    const Atlas& atlas = this->atlas(request);
+    return json_answer(active_json(atlas.active(stored_tau(atlas, tau), false, context_of(*job)), tau, top));
 }
 
 Response Service::measures_answer(const Request& request) {
-    const Atlas& atlas = atlas_of_volume();
+    const Atlas& atlas = atlas_of_volume(request);
     QueryParameters words(request.words);
     const double tau = required_tau(words);
     const std::vector<std::int64_t> objects = voxels(words, "object", request);
@@ -236,20 +272,22 @@ Response Service::measures_answer(const Request& request) {
 
 Response Service::branches_answer(const Request& request) {
     QueryParameters words(request.words);
-    const BranchesWanted wanted = branches_wanted(words, atlas().info().calibration);
-    const StoreCatalogue& known = this->known(request);
+    const Atlas& atlas = this->atlas(request);
+    const BranchesWanted wanted = branches_wanted(words, atlas.info().calibration);
+    const SideCatalogue& side = side_of(request);
     const std::unique_ptr<JobQueue::Job> job = acquire_job(QueueClass::trees, request);
-    return json_answer(branches_json(atlas(), known.hierarchy, known.number_of_rank, wanted, context_of(*job)));
+    return json_answer(branches_json(atlas, side.hierarchy, side.number_of_rank, wanted, context_of(*job)));
 }
 
-CardSubject Service::card_subject(QueryParameters& words, const StoreCatalogue& known) const {
+CardSubject Service::card_subject(QueryParameters& words, const StoreCatalogue& known, const Atlas& atlas) const {
     const std::optional<std::int64_t> entry = words.whole("entry", 0, kMaxListed), branch = words.whole("branch", 0, kMaxBranches);
     if (entry.has_value() == branch.has_value())
         throw Error(ErrorKind::usage, {.where = "entry", .what = "requires exactly one object", .next = "add entry=N or branch=RANK"});
     if (branch) {
-        PageEntry drawn = branch_entry(atlas(), known.hierarchy, *branch);
+        const Polarity polarity = polarity_of(atlas.info());
+        PageEntry drawn = branch_entry(atlas, known.of(polarity).hierarchy, *branch);
         drawn.colour = palette(*branch);
-        return {"branch " + std::to_string(*branch), false, std::move(drawn)};
+        return {std::string(name_of(polarity)) + " branch " + std::to_string(*branch), false, polarity, std::move(drawn)};
     }
     const std::vector<PageEntry>& entries = known.contents.entries;
     if (*entry >= std::ssize(entries)) {
@@ -258,20 +296,22 @@ CardSubject Service::card_subject(QueryParameters& words, const StoreCatalogue& 
                                            .expected = "less than " + std::to_string(entries.size())});
     }
     const PageEntry& drawn = entries[static_cast<std::size_t>(*entry)];
-    return {"entry " + std::to_string(*entry), known.contents.branches[static_cast<std::size_t>(drawn.branch)].is_cavity, drawn};
+    const PageBranch& of = known.contents.branches[static_cast<std::size_t>(drawn.branch)];
+    return {"entry " + std::to_string(*entry), of.is_cavity, of.polarity, drawn};
 }
 
 Response Service::card_answer(const Request& request) {
-    const Atlas& atlas = atlas_of_volume();
+    const Atlas& atlas = atlas_of_volume(request);
     QueryParameters words(request.words);
-    const CardSubject subject = card_subject(words, known(request));
+    const CardSubject subject = card_subject(words, known(request), atlas);
+    const Atlas& drawn = store_state_.sides().of(subject.polarity);
     const std::int64_t frames = words.whole("frames", 1, kMaxFrames).value_or(kMaxFrames);
     words.reject_unknown();
-    return json_answer(cards_.json(atlas, subject, frames, request, queues_.of(QueueClass::cards), context_));
+    return json_answer(cards_.json(drawn, subject, frames, request, queues_.of(QueueClass::cards), context_));
 }
 
 Response Service::surface_answer(const Request& request) {
-    const Atlas& atlas = atlas_of_volume();
+    const Atlas& atlas = atlas_of_volume(request);
     QueryParameters words(request.words);
     const double tau = required_tau(words);
     SurfaceOptions options;
@@ -288,13 +328,13 @@ Response Service::surface_answer(const Request& request) {
     const Context context = context_of(*job);
     const double stored = stored_tau(atlas, tau);
     if (format) {
-        const Surface surface = extract(stored, options, context);
+        const Surface surface = extract(atlas, stored, options, context);
         Download download(*format, context);
         (void)write_surface(download, surface);
         return file_answer(download.take());
     }
-    const auto make = [&](const Context& own) { return wire(extract(stored, options, own), max, own); };
-    WireMesh mesh = is_first(stored, options, max) ? first_.get(context, make) : make(context);
+    const auto make = [&](const Context& own) { return wire(extract(atlas, stored, options, own), max, own); };
+    WireMesh mesh = is_first(atlas, stored, options, max) ? first_.get(context, make) : make(context);
     Response answer = file_answer(std::move(mesh.bytes));
     answer.headers["X-Triangles"] = std::to_string(mesh.triangles);
     answer.headers["X-Coarse"] = mesh.coarse ? "1" : "0";
@@ -302,7 +342,7 @@ Response Service::surface_answer(const Request& request) {
 }
 
 Response Service::label_answer(const Request& request) {
-    const Atlas& atlas = this->atlas();
+    const Atlas& atlas = this->atlas(request);
     QueryParameters words(request.words);
     const double tau = required_tau(words);
     const std::vector<std::int64_t> objects = voxels(words, "object", request);
@@ -321,8 +361,8 @@ Response Service::label_answer(const Request& request) {
     return file_answer(download.take());
 }
 
-const Atlas& Service::atlas_of_volume() const {
-    const Atlas& found = atlas();
+const Atlas& Service::atlas_of_volume(const Request& request) const {
+    const Atlas& found = atlas(request);
     if (found.info().extent.rank == 3) return found;
     throw Error(ErrorKind::unsupported, {.what = "the contours of a 2D image are not a surface",
                                          .next = "write them into a file without the server",
@@ -331,24 +371,28 @@ const Atlas& Service::atlas_of_volume() const {
 
 std::vector<std::int64_t> Service::voxels(QueryParameters& words, std::string_view name, const Request& request) {
     static const NumberedLines none;
+    const Polarity polarity = polarity_of(atlas(request).info());
     const auto [first, end] = request.words.equal_range(std::string(name));
     // Voxels alone need no tables: the first surface of a page does not wait for them.
     const bool has_numbers = first != end && !only_voxels(first->second);
-    return voxels_of(named_parts(words, name, atlas(), has_numbers ? known(request).lines : none, kMaxObjects));
+    const NumberedSides sides = has_numbers ? numbered_sides(request) : NumberedSides{store_state_.sides(), none, nullptr, polarity};
+    return voxels_of(named_parts(words, name, sides, kMaxObjects), polarity);
 }
 
 Response Service::several_answer(const Request& request) {
-    const Atlas& atlas = atlas_of_volume();
+    const Atlas& atlas = atlas_of_volume(request);
     const bool has_labels = request.path == "/api/segmentation";
     if (has_labels) check_labels_fit();
-    const StoreCatalogue& known = this->known(request);
-    const SeveralObjects all{atlas, known.lines, Naming::usable_names(atlas), std::min(memory_ / kTriangleBytes, kMaxTriangles)};
+    const NumberedSides sides = numbered_sides(request);
+    const SeveralObjects all{sides, Naming::usable_names(sides.stores.main),
+                             sides.low != nullptr ? Naming::usable_names(*sides.stores.low) : std::vector<ObjectName>{},
+                             std::min(memory_ / kTriangleBytes, kMaxTriangles)};
     const std::unique_ptr<JobQueue::Job> job = acquire_job(QueueClass::surfaces, request);
     return has_labels ? segmentation_answer(all, request, context_of(*job)) : surfaces_answer(all, request, context_of(*job));
 }
 
 void Service::check_labels_fit() const {
-    if (atlas().info().extent.voxels() <= memory_ / kLabelBytes) return;
+    if (store_state_.sides().main.info().extent.voxels() <= memory_ / kLabelBytes) return;
     throw Error(ErrorKind::resource, {.what = "the label volume exceeds the memory budget of this server",
                                       .next = "write them into a file without the server, or give it more memory",
                                       .reason = Reason::labels_too_large});
@@ -365,13 +409,13 @@ Context Service::context_of(JobQueue::Job& job) const {
 
 std::int64_t Service::max_triangles() const { return std::min(memory_ / kTriangleBytes, kMaxTriangles); }
 
-Surface Service::extract(double tau, SurfaceOptions options, const Context& context) const {
+Surface Service::extract(const Atlas& atlas, double tau, SurfaceOptions options, const Context& context) const {
     options.max_triangles = max_triangles();
-    return atlas().extract(tau, options, context);
+    return atlas.extract(tau, options, context);
 }
 
 WireMesh Service::wire(const Surface& surface, std::int64_t max, const Context& context) const {
-    const double spacing = std::ranges::min(atlas().info().geometry.spacing);
+    const double spacing = std::ranges::min(store_state_.sides().main.info().geometry.spacing);
     return wire_mesh(surface, {.step = spacing / kStepsOfVoxel, .max_triangles = max}, context);
 }
 

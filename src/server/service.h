@@ -20,6 +20,8 @@
 //   /api/names                              names of objects (server/naming.h)
 //   PUT /api/name?object=REF&name=N         gives one
 //
+// polarity=low: any of them of the objects of low values, where the store is open for both polarities; references to several objects may
+// say it one by one: low2. The entries of /api/atlas are of both.
 // tau: in units of the file, as `isoatlas extract --tau`. Everything but the page needs the token; authorisation: server/access_control.h,
 // which answers /open and /enter; server/http.cpp answers /api/address.
 #pragma once
@@ -77,27 +79,30 @@ private:
     /// Blocks until it is computed, without a queue: all wait for the same.
     [[nodiscard]] const StoreCatalogue& known(const Request& request);
     [[nodiscard]] const StoreCatalogue& known(const Context& context);
-    [[nodiscard]] CardSubject card_subject(QueryParameters& words, const StoreCatalogue& known) const;
+    [[nodiscard]] CardSubject card_subject(QueryParameters& words, const StoreCatalogue& known, const Atlas& atlas) const;
     /// Blocks until the job may run.
     [[nodiscard]] std::unique_ptr<JobQueue::Job> acquire_job(QueueClass line, const Request& request);
     /// When its job runs.
     [[nodiscard]] Response samples_answer(const Request& request, Response (*make)(const Atlas&, const Request&, const Context&));
 
-    [[nodiscard]] const Atlas& atlas() const { return store_state_.atlas(); }
+    /// Of the polarity of a request. Throws Error{usage} where the store is not open for it.
+    [[nodiscard]] const Atlas& atlas(const Request& request) const;
+    [[nodiscard]] const SideCatalogue& side_of(const Request& request);
+    [[nodiscard]] NumberedSides numbered_sides(const Request& request);
     /// Throws Error{resource} where labels would exceed the memory of a response.
     void check_labels_fit() const;
     /// Throws Error{unsupported} for an image.
-    [[nodiscard]] const Atlas& atlas_of_volume() const;
+    [[nodiscard]] const Atlas& atlas_of_volume(const Request& request) const;
     /// Of objects or contours of a request with one isovalue.
     [[nodiscard]] std::vector<std::int64_t> voxels(QueryParameters& words, std::string_view name, const Request& request);
     /// Context of a long call of a job.
     [[nodiscard]] Context context_of(JobQueue::Job& job) const;
     /// Throws where a response would exceed its memory budget.
-    [[nodiscard]] Surface extract(double tau, SurfaceOptions options, const Context& context) const;
+    [[nodiscard]] Surface extract(const Atlas& atlas, double tau, SurfaceOptions options, const Context& context) const;
     [[nodiscard]] std::int64_t max_triangles() const;
     [[nodiscard]] WireMesh wire(const Surface& surface, std::int64_t max, const Context& context) const;
     /// Is it the first surface of every page?
-    [[nodiscard]] bool is_first(double tau, const SurfaceOptions& options, std::int64_t max) const;
+    [[nodiscard]] bool is_first(const Atlas& atlas, double tau, const SurfaceOptions& options, std::int64_t max) const;
 
     const std::string token_;
     Context context_;

@@ -12,9 +12,8 @@
 namespace isoatlas {
 
 struct SeveralObjects {
-    const Atlas& atlas;
-    const NumberedLines& lines;
-    std::vector<ObjectName> names;
+    NumberedSides sides;
+    std::vector<ObjectName> names, low_names;
     std::int64_t max_triangles = 0;  ///< of each surface
 };
 

@@ -1,6 +1,7 @@
 // Data that most responses need and every page requests first: computed once, on the first request or before.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -11,17 +12,26 @@
 
 namespace isoatlas {
 
-struct StoreCatalogue {
-    PageContents contents;
+/// Of one polarity.
+struct SideCatalogue {
     BranchHierarchy hierarchy;
-    std::vector<NamedEntry> entries;
     NumberedLines lines;
     std::vector<std::int64_t> number_of_rank;  ///< of the first line of an object in the table, from 1; 0: none
-    std::string atlas, transfer;               ///< the responses to these requests
+    std::string transfer;                      ///< the response to this request
+};
+
+struct StoreCatalogue {
+    PageContents contents;
+    std::vector<NamedEntry> entries;
+    std::string atlas;  ///< the response to this request
+    SideCatalogue main;
+    std::optional<SideCatalogue> low;  ///< of a store that is open for both
+
+    [[nodiscard]] const SideCatalogue& of(Polarity polarity) const { return low && polarity == Polarity::low ? *low : main; }
 };
 
 /// Throws Error: input (damaged store), cancelled. Cost: overview_of() (atlas/overview.h) and page_contents(); of noise some seconds for
 /// 256^3 samples. The trees are read.
-[[nodiscard]] StoreCatalogue load_catalogue(const Atlas& atlas, const Context& context);
+[[nodiscard]] StoreCatalogue load_catalogue(const StoreSides& sides, const Context& context);
 
 }  // namespace isoatlas

@@ -11,8 +11,8 @@ void StoreState::change(const Change& apply) {
     changes_.note();
 }
 
-void StoreState::open(const Atlas& atlas) {
-    change([&] { atlas_ = &atlas; });
+void StoreState::open(const Atlas& atlas, const Atlas* low) {
+    change([&] { atlas_ = &atlas, low_ = low; });
 }
 
 void StoreState::report_progress(const BuildState& state) {
@@ -23,9 +23,9 @@ void StoreState::fail(const Error& error) {
     change([&] { failure_ = error; });
 }
 
-const Atlas& StoreState::atlas() const {
+StoreSides StoreState::sides() const {
     const std::lock_guard lock(mutex_);
-    if (atlas_ != nullptr) return *atlas_;
+    if (atlas_ != nullptr) return {*atlas_, low_};
     if (failure_) throw *failure_;
     throw Error(ErrorKind::resource, {.what = "the store is being built", .next = "/api/events reports the progress"});
 }

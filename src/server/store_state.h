@@ -4,7 +4,7 @@
 #include <mutex>
 #include <optional>
 
-#include "isoatlas/atlas.h"
+#include "catalogue/store_sides.h"
 #include "isoatlas/build.h"
 #include "isoatlas/error.h"
 #include "server/version_counter.h"
@@ -16,13 +16,13 @@ public:
     /// changes: notified of every change; it must live as long.
     explicit StoreState(VersionCounter& changes) : changes_(changes) {}
 
-    /// Final state. The atlas must live as long as this.
-    void open(const Atlas& atlas);
+    /// Final state. The atlas must live as long as this. low: the same store for objects of low values, where it is open for both.
+    void open(const Atlas& atlas, const Atlas* low = nullptr);
     void report_progress(const BuildState& state);
     void fail(const Error& error);
 
     /// Throws Error: resource while the store is being built, or the error of its build.
-    [[nodiscard]] const Atlas& atlas() const;
+    [[nodiscard]] StoreSides sides() const;
 
     struct State {
         bool is_open = false;
@@ -37,7 +37,7 @@ private:
 
     VersionCounter& changes_;
     mutable std::mutex mutex_;
-    const Atlas* atlas_ = nullptr;
+    const Atlas *atlas_ = nullptr, *low_ = nullptr;
     BuildState build_;
     std::optional<Error> failure_;
 };

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <iterator>
-#include <map>
 #include <set>
 
 #include <fmt/format.h>
@@ -85,24 +84,17 @@ ChosenLabels labels_of_side(const Arguments& arguments, Source& source, std::int
 }
 
 /// Adds those of low values behind the last label of the others.
-void add_labels(ChosenLabels& labels, const ChosenLabels& low) {
+void add_labels(ChosenLabels& labels, ChosenLabels low) {
     const std::int64_t last = labels.objects.back().segment.number;
-    std::map<std::uint32_t, std::uint32_t> renumbered;
-    std::map<std::uint32_t, std::int64_t> voxels;
-    for (const LabelledObject& one : labels.objects) voxels[static_cast<std::uint32_t>(one.segment.number)] = one.segment.voxels;
-    for (LabelledObject one : low.objects) {
-        const auto before = static_cast<std::uint32_t>(one.segment.number);
-        one.segment.number = last + std::ssize(renumbered) + 1;
-        renumbered[before] = static_cast<std::uint32_t>(one.segment.number);
-        voxels[renumbered[before]] = one.segment.voxels;
+    std::vector<std::uint32_t> renumbered(static_cast<std::size_t>(low.objects.back().segment.number) + 1, 0);
+    for (LabelledObject& one : low.objects) {
+        const std::int64_t number = last + (&one - low.objects.data()) + 1;
+        renumbered[static_cast<std::size_t>(one.segment.number)] = static_cast<std::uint32_t>(number);
+        one.segment.number = number;
         labels.objects.push_back(std::move(one));
     }
-    for (std::size_t v = 0; v < labels.of_voxel.size(); ++v) {
-        if (low.of_voxel[v] == 0) continue;
-        std::uint32_t& label = labels.of_voxel[v];
-        const std::uint32_t own = renumbered.at(low.of_voxel[v]);
-        if (label == 0 || voxels.at(own) < voxels.at(label)) label = own;
-    }
+    for (std::uint32_t& label : low.of_voxel) label = renumbered[label];
+    overlay_labels(labels.of_voxel, low.of_voxel);
     count_voxels(labels);
 }
 
@@ -118,7 +110,7 @@ ChosenLabels chosen_labels(const Arguments& arguments, Sides& sides, const std::
         sides.source(polarity).release_trees();
         ChosenLabels found = labels_of_side(arguments, sides.source(polarity), table, own);
         if (labels) {
-            add_labels(*labels, found);
+            add_labels(*labels, std::move(found));
         } else {
             labels = std::move(found);
         }

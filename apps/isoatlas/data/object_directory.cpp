@@ -50,7 +50,8 @@ std::string reference_of(const ChosenObject& object, bool with_tau) {
 
 Colour colour_of(const ChosenObject& object, std::int64_t place) {
     if (object.number == 0) return palette(place);
-    return object.is_contour ? colour_of_cavity(object.number) : colour_of_object(object.number);
+    const bool is_low = object.polarity == Polarity::low;
+    return object.is_contour != is_low ? colour_of_cavity(object.number) : colour_of_object(object.number);
 }
 
 std::string names_file(const Arguments& arguments, Polarity polarity) {

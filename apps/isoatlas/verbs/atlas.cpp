@@ -51,15 +51,21 @@ int run_atlas(const Arguments& arguments, Terminal& terminal) {
     const std::string store = store_for(arguments, terminal, store_beside(page));
     const bool is_volume = store != arguments.file;
     const Atlas atlas(store, {.polarity = arguments.side(), .corrections = is_volume ? Corrections{} : corrections_of(arguments)});
+    std::optional<Atlas> low;  // of a store of both
+    if (!arguments.side() && atlas.polarities() == PolarityChoice::both)
+        low.emplace(store, AtlasOptions{.polarity = Polarity::low, .corrections = is_volume ? Corrections{} : corrections_of(arguments)});
     for (const std::string& note : arguments.inputs.assumed) terminal.say("note: " + note);
     PageReport report;
     {
         Session session(arguments, terminal);
         const WritingGuard guard;
         const std::int64_t top = arguments.top > 0 ? arguments.top : 24;
+        const auto names = [&](Polarity side) { return names_in(object_names_path(store, side), atlas.info().extent, terminal); };
         const PageOptions options{.top = top,
                                   .top_cavities = (top + 1) / 2,
-                                  .names = names_in(object_names_path(store, polarity_of(atlas.info())), atlas.info().extent, terminal),
+                                  .names = names(polarity_of(atlas.info())),
+                                  .low = low ? &*low : nullptr,
+                                  .low_names = low ? names(Polarity::low) : std::vector<ObjectName>{},
                                   .source = store,
                                   .notes = notes_of(arguments, atlas),
                                   .smoothing = smoothing_of(arguments, atlas.info(), page)};
@@ -72,14 +78,18 @@ int run_atlas(const Arguments& arguments, Terminal& terminal) {
         json["store"] = store;
         json["output"] = page;
         json["bytes"] = report.bytes;
+        if (low) json["polarity"] = name_of(PolarityChoice::both);
         json["shown"] = report.objects;
+        json["shown_low"] = report.low;
         json["shown_cavities"] = report.cavities;
         json["hidden"] = report.hidden;
         print(terminal, json);
         return 0;
     }
-    terminal.out() << page << ": " << counted(report.objects, "picture") << ", " << count_text(report.cavities) << " of cavities; "
-                   << counted(report.hidden, "object") << " hidden; " << bytes_text(static_cast<double>(report.bytes)) << '\n';
+    const std::string others =
+        low ? count_text(report.low) + " of objects of low values; " : count_text(report.cavities) + " of cavities; ";
+    terminal.out() << page << ": " << counted(report.objects, "picture") << ", " << others << counted(report.hidden, "object")
+                   << " hidden; " << bytes_text(static_cast<double>(report.bytes)) << '\n';
     terminal.next("open " + page + " in a browser");
     return 0;
 }

@@ -118,14 +118,21 @@ int run_view(const Arguments& arguments, Terminal& terminal) {
     AtlasOptions options{.cache_bytes = arguments.memory, .polarity = arguments.side()};
     if (store == arguments.file) options.corrections = corrections_of(arguments);
     for (const std::string& note : arguments.inputs.assumed) terminal.say("note: " + note);
-    std::optional<Atlas> atlas;
-    if (is_ready(arguments, terminal, store)) {
+    std::optional<Atlas> atlas, low;  // of a store of both two
+    const auto open_store = [&] {
         atlas.emplace(store, options);
+        if (arguments.side() || atlas->polarities() != PolarityChoice::both) return;
+        AtlasOptions of_low = options;
+        of_low.polarity = Polarity::low;
+        low.emplace(store, of_low);
+    };
+    if (is_ready(arguments, terminal, store)) {
+        open_store();
         check_is_volume(arguments, atlas->info());
     }
     Server server(server_options(arguments), context_of(arguments));
     keep_token(server, terminal);
-    if (atlas) server.open(*atlas);
+    if (atlas) server.open(*atlas, low ? &*low : nullptr);
     const Answering answering(server);
     print_address(arguments, terminal, server, store);
     if (!arguments.no_browser) open_in_browser(server.address_for_one_use());
@@ -133,8 +140,8 @@ int run_view(const Arguments& arguments, Terminal& terminal) {
     if (!atlas) {
         try {
             await_store(arguments, terminal, store, [&server](const BuildState& state) { server.report_progress(state); });
-            atlas.emplace(store, options);
-            server.open(*atlas);
+            open_store();
+            server.open(*atlas, low ? &*low : nullptr);
         } catch (const Error& error) {
             if (interrupted()) return 0;
             server.fail(with_options(error));  // the page shows it too
