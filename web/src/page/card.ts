@@ -1,7 +1,7 @@
 // A card for an object: its picture, its size, and the range of its isovalues.
 import { html } from "../shared/dom";
 import { value, volume } from "../shared/format";
-import { anchorOf, describe, furtherIsovalues, isCavity, nameOf, placeOf, rangeOf, reasonOf, shapeOf } from "../shared/names";
+import { anchorOf, describe, furtherIsovalues, isCavity, nameOf, placeOf, rangeOf, reasonOf, shapeOf, valuesOf } from "../shared/names";
 import { rangeBar } from "../shared/overview";
 import { branchOf, entryOf, type Page } from "../shared/page";
 import { turntable } from "../shared/turntable";
@@ -23,13 +23,15 @@ export function card(page: Page, i: number, open: (i: number) => void): HTMLElem
     : html("div", { class: "turntable missing" }, "no picture");
   picture.addEventListener("click", () => open(i));
   const isMain = branchOf(page, entry.branch).merges === null;
-  const notes = [isMain ? "the largest object" : "", placeOf(page, i)].filter(Boolean).join(", ");
+  const isChip = entry.enclosed === true;
+  const largest = page.polarity !== "both" && isMain ? "the largest object" : "";
+  const notes = [largest, isChip ? "" : placeOf(page, i), entry.border ?? ""].filter(Boolean).join(", ");
   const reason = reasonOf(page, i);
   const facts = html(
     "dl",
     { class: "facts" },
-    html("dt", {}, "isovalue"),
-    html("dd", {}, value(entry.tau), reason ? html("span", { class: "why" }, ` (${reason})`) : null),
+    html("dt", {}, page.polarity === "both" ? "values" : "isovalue"),
+    html("dd", {}, valuesOf(page, i), reason ? html("span", { class: "why" }, ` (${reason})`) : null),
     ...alsoAt(page, i),
     html("dt", {}, "exists"),
     html("dd", {}, rangeOf(branchOf(page, entry.branch), page)),
@@ -43,6 +45,7 @@ export function card(page: Page, i: number, open: (i: number) => void): HTMLElem
     { class: isCavity(page, i) ? "card cavity" : "card", id: anchorOf(page, i) },
     picture,
     html("h3", {}, title),
+    isChip ? html("ul", { class: "chips" }, html("li", {}, placeOf(page, i).replace(/^a /, ""))) : null,
     notes ? html("p", { class: "note" }, notes) : null,
     rangeBar(page, i),
     facts,

@@ -6,7 +6,7 @@ export interface Choice {
   /** number of objects, by rank */
   keep: number;
   order: string;
-  side: "all" | Side;
+  side: "all" | Side | "high" | "low";
   /** voxels */
   minVoxels: number;
 }
@@ -16,7 +16,14 @@ export function ranked(page: Page): number[] {
   const pictured = new Set(page.entries.map((entry) => entry.branch));
   return page.branches
     .map((_, b) => b)
-    .sort((p, q) => Number(pictured.has(q)) - Number(pictured.has(p)) || byRank(branchOf(page, p), branchOf(page, q)) || p - q);
+    .sort((p, q) => Number(pictured.has(q)) - Number(pictured.has(p)) || inListOfBoth(page, p, q) || byRank(branchOf(page, p), branchOf(page, q)) || p - q);
+}
+
+/** Entries of a page of both are by importance. */
+function inListOfBoth(page: Page, p: number, q: number): number {
+  if (page.polarity !== "both") return 0;
+  const place = (b: number): number => page.entries.findIndex((entry) => entry.branch === b);
+  return place(p) - place(q);
 }
 
 /** Number of branches with a picture: those shown initially. */
@@ -34,7 +41,7 @@ export function chosenBranches(page: Page, choice: Choice): Set<number> {
   return new Set(
     kept.filter((b) => {
       const branch = branchOf(page, b);
-      return (choice.side === "all" || branch.side === choice.side) && (choice.minVoxels === 0 || largest(page, b) >= choice.minVoxels);
+      return (choice.side === "all" || branch.side === choice.side || branch.polarity === choice.side) && (choice.minVoxels === 0 || largest(page, b) >= choice.minVoxels);
     }),
   );
 }

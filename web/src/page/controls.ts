@@ -6,6 +6,7 @@ import { orders } from "../shared/orders";
 import type { Page } from "../shared/page";
 
 const SIDES: [Choice["side"], string][] = [["all", "all"], ["object", "objects"], ["cavity", "cavities"]];
+const POLARITIES: [Choice["side"], string][] = [["all", "all"], ["high", "high values"], ["low", "low values"]];
 
 export interface Controls {
   /** null: there is only one object */
@@ -16,7 +17,8 @@ export interface Controls {
 export function controls(page: Page, changed: (choice: Choice) => void): Controls {
   const first = firstChoice(page);
   const order = html("select", { name: "order" }, ...orders.map(([name]) => html("option", { value: name }, name)));
-  const side = html("select", { name: "side" }, ...SIDES.map(([name, text]) => html("option", { value: name }, text)));
+  const sides = page.polarity === "both" ? POLARITIES : SIDES;
+  const side = html("select", { name: "side" }, ...sides.map(([name, text]) => html("option", { value: name }, text)));
   const minVoxels = html("input", { type: "number", name: "min-voxels", min: 0, step: 1, value: 0, inputmode: "numeric" });
   const keep = html("input", { type: "range", name: "keep", min: 1, max: Math.max(1, page.branches.length), step: 1, value: first.keep });
   const shown = html("strong", {});
@@ -32,7 +34,7 @@ export function controls(page: Page, changed: (choice: Choice) => void): Control
     update();
   });
   shown.textContent = count(first.keep);
-  const both = new Set(page.branches.map((branch) => branch.side)).size > 1;
+  const both = new Set(page.branches.map((branch) => `${branch.side} ${branch.polarity ?? ""}`)).size > 1;
   return {
     keep:
       page.branches.length > 1

@@ -3,16 +3,23 @@ import { drawingWidth } from "../shared/axis";
 import { html, svg } from "../shared/dom";
 import { count, value } from "../shared/format";
 import { pictured } from "./choice";
-import type { Page } from "../shared/page";
+import type { Curve, Page } from "../shared/page";
 
 export interface CurvePanel {
+  /** of pages of both */
+  polarity?: "high" | "low";
   panel: HTMLElement;
   /** Marks the number of objects that are kept. */
   mark: (kept: number) => void;
 }
 
-export function curve(page: Page): CurvePanel | null {
-  const data = page.curve;
+/** One; of a page of both two. */
+export function curves(page: Page): CurvePanel[] {
+  const all = page.low ? [curve(page, page.curve, "high"), curve(page, page.low.curve, "low")] : [curve(page, page.curve)];
+  return all.filter((one) => one !== null);
+}
+
+function curve(page: Page, data: Curve, polarity?: "high" | "low"): CurvePanel | null {
   if (data.kept.length < 2) return null;
   const [width, height, left, right, top, bottom] = [drawingWidth(), 220, 60, 14, 16, 180];
   const positive = data.threshold.filter((t) => t > 0);
@@ -57,13 +64,15 @@ export function curve(page: Page): CurvePanel | null {
     const there = x(data.threshold[i < 0 ? data.kept.length - 1 : i] ?? 1);
     current.replaceChildren(svg("circle", { cx: there, cy: y(kept), r: 5 }), svg("title", {}, `${kept} shown`));
   };
-  mark(pictured(page));
+  if (polarity === undefined) mark(pictured(page));
+  const of = polarity === undefined ? "" : ` of ${polarity} values`;
   return {
+    polarity,
     mark,
     panel: html(
       "section",
       { class: "panel" },
-      html("h2", {}, "Number of objects vs. minimum importance"),
+      html("h2", {}, `Number of objects${of} vs. minimum importance`),
       html(
         "p",
         { class: "note" },

@@ -4,9 +4,24 @@ import { drawCounts, Scale, type Line } from "./columns";
 import { commandList } from "../shared/commands";
 import { html, svg } from "../shared/dom";
 import { count, plural, value, volume } from "../shared/format";
-import { anchorOf, branchName, contentsOf, describe, entriesOf, isCavity, nameOf, rangeOf, shapeOf, voxelWord } from "../shared/names";
+import {
+  anchorOf,
+  branchName,
+  contentsOf,
+  describe,
+  entriesOf,
+  inOrderOfMerges,
+  isCavity,
+  nameOf,
+  placeOf,
+  rangeOf,
+  referenceOf,
+  shapeOf,
+  valuesOf,
+  voxelWord,
+} from "../shared/names";
 import { rangeBar } from "../shared/overview";
-import { branchOf, entryOf, type Advice, type Page } from "../shared/page";
+import { branchOf, entryOf, isOfLowValues, type Advice, type Page } from "../shared/page";
 import { legend } from "./spectrum";
 import { thumbnail, turntable } from "../shared/turntable";
 
@@ -40,9 +55,11 @@ export class Detail {
     history.replaceState(null, "", `#${anchorOf(this.page, this.shown)}`);
   }
 
-  /** By its address, "#object-3" or "#cavity-1"; "#dark-1" in pages before version 0.2. */
+  /** By its address, "#object-3" or "#cavity-1", or its reference, "#low2"; "#dark-1" in pages before version 0.2. */
   openAt(hash: string): void {
-    const i = this.page.entries.findIndex((_, k) => `#${anchorOf(this.page, k)}` === hash.replace(/^#dark-/, "#cavity-"));
+    const { page } = this;
+    const isMeant = (k: number): boolean => [anchorOf(page, k), referenceOf(page, k)].includes(hash.slice(1).replace(/^dark-/, "cavity-"));
+    const i = page.entries.findIndex((_, k) => isMeant(k));
     if (i >= 0) this.open(i);
   }
 
@@ -96,7 +113,7 @@ export class Detail {
     const grows = branch.side === "cavity" ? " and grows with the isovalue" : "";
     const end =
       branch.merges === null
-        ? `${appears} and never merges: it exists at every ${page.polarity === "low" ? "higher" : "lower"} isovalue.`
+        ? `${appears} and never merges: it exists at every ${isOfLowValues(page, branch) ? "higher" : "lower"} isovalue.`
         : `${appears}${grows}. At ${value(branch.merges)} it merges into ${into}.`;
     return `${end} ${shape}`;
   }
@@ -127,7 +144,8 @@ export class Detail {
     const siblings = page.branches.flatMap((other, b) =>
       branch.parent >= 0 && other.parent === branch.parent && b !== entry.branch ? entriesOf(page, b).slice(0, 1) : [],
     );
-    const facts: [string, (Node | string)[]][] = [["isovalue", [value(entry.tau), entry.why ? `: ${entry.why}` : ""]]];
+    const name = page.polarity === "both" ? "values" : "isovalue";
+    const facts: [string, (Node | string)[]][] = [[name, [valuesOf(page, i), entry.why ? `: ${entry.why}` : ""]]];
     if (same.length > 0) facts.push(["same object at", this.links(same, (k) => ` at ${value(entryOf(page, k).tau)}`)]);
     const more = branch.isovalues ?? [];
     if (more.length > 0) facts.push(["other good isovalues", more.map((advice) => this.advice(advice))]);
@@ -139,6 +157,8 @@ export class Detail {
     );
     if (entry.inside >= 0) facts.push(["inside", this.links([entry.inside])]);
     if (entry.around >= 0) facts.push(["a cavity of", this.links([entry.around])]);
+    else if (entry.enclosed) facts.push(["place", [placeOf(page, i)]]);
+    if (entry.border) facts.push(["border", [entry.border]]);
     if (inside.length > 0) facts.push(["contains", this.links(inside)]);
     if (branch.parent >= 0) facts.push(["merges into", [this.branchLink(branch.parent)]]);
     if (siblings.length > 0) facts.push(["merges with", this.links(siblings)]);
@@ -195,14 +215,15 @@ export class Detail {
     );
   }
 
-  /** Branches that merge into this object, highest isovalue first. */
+  /** Branches that merge into this object, in that order. */
   private merges(i: number): HTMLElement | null {
     const { page } = this;
     const own = entryOf(page, i).branch;
     const arriving = page.branches.map((_, b) => b).filter((b) => branchOf(page, b).parent === own);
-    const shown = arriving
-      .filter((b) => entriesOf(page, b).length > 0)
-      .sort((p, q) => (branchOf(page, q).merges ?? 0) - (branchOf(page, p).merges ?? 0));
+    const shown = inOrderOfMerges(
+      page,
+      arriving.filter((b) => entriesOf(page, b).length > 0),
+    );
     const joined = Math.max(branchOf(page, own).joined, shown.length);
     if (joined === 0) return null;
     const items = shown.slice(0, maxMerges).map((b) => html("li", {}, `at ${value(branchOf(page, b).merges ?? 0)}: `, this.branchLink(b)));

@@ -1,5 +1,6 @@
 // The terms of this page.
 import { html } from "../shared/dom";
+import type { Page } from "../shared/page";
 
 const terms: [string, string][] = [
   ["Isovalue", "A threshold: objects are connected components of values ≥ isovalue; the isosurface is their boundary."],
@@ -25,11 +26,22 @@ const terms: [string, string][] = [
   ["Noise", "Measured volumes contain very many tiny objects. Those below noise level are left out of this page, not out of the store."],
 ];
 
-export function glossary(): HTMLElement {
+const ofBoth: [string, string][] = [
+  ["Isovalue", "A threshold. Objects of high values consist of samples of at least it, objects of low values of samples of at most it."],
+  [
+    "Object of low values",
+    "A connected set of samples of at most the isovalue: lungs, pores, channels. It appears at its lowest value and grows with the isovalue." +
+      " It may reach the border of the volume; one that does not is a cavity of an object of high values.",
+  ],
+];
+
+export function glossary(page: Page): HTMLElement {
+  const own = page.polarity === "both" ? ofBoth : [];
+  const shown = [...own, ...terms.filter(([term]) => !own.some(([name]) => name === term) && !(own.length > 0 && term === "Cavity"))];
   return html(
     "details",
     { class: "panel glossary" },
     html("summary", {}, "Glossary"),
-    html("dl", {}, ...terms.flatMap(([term, meaning]) => [html("dt", {}, term), html("dd", {}, meaning)])),
+    html("dl", {}, ...shown.flatMap(([term, meaning]) => [html("dt", {}, term), html("dd", {}, meaning)])),
   );
 }

@@ -3,7 +3,7 @@ import { narrowScreens } from "../shared/axis";
 import { card } from "./card";
 import { chosenBranches, chosenEntries, firstChoice, type Choice } from "./choice";
 import { controls } from "./controls";
-import { curve } from "./curve";
+import { curves } from "./curve";
 import { Detail } from "./detail";
 import { html } from "../shared/dom";
 import { count, value } from "../shared/format";
@@ -15,9 +15,14 @@ import { readPage, type Page } from "../shared/page";
 import { spectrum } from "./spectrum";
 import "./page.css";
 
+const sides: Record<string, string> = {
+  low: " Objects of low values; cavities are what they enclose.",
+  both: " Objects of high values (samples of at least an isovalue) and of low values (of at most one).",
+};
+
 function about(page: Page): HTMLElement {
   const { volume } = page;
-  const side = page.polarity === "low" ? " Objects of low values; cavities are what they enclose." : "";
+  const side = sides[page.polarity ?? "high"] ?? "";
   const spacing = volume.spacing && volume.unit ? `, voxels of ${volume.spacing.map(value).join(" × ")} ${volume.unit}` : "";
   const unit = volume.valueUnit ? ` ${volume.valueUnit}` : "";
   const range =
@@ -52,7 +57,7 @@ function smoothing(page: Page): HTMLElement[] {
 function verdict(page: Page): string[] {
   if (page.volume.low === page.volume.high) return ["All samples have the same value: there are no objects at any isovalue."];
   if (page.entries.length === 0) return ["No objects to show: all of them are below noise level."];
-  const others = page.branches.some((branch) => branch.significant && branch.merges !== null);
+  const others = page.polarity === "both" || page.branches.some((branch) => branch.significant && branch.merges !== null);
   const noisy =
     1.1 * Math.sqrt(2 * Math.log(page.volume.size.reduce((p, q) => p * q, 1))) * page.volume.noise > page.volume.high - page.volume.low;
   if (!others && noisy)
@@ -75,6 +80,11 @@ function heading(page: Page): string {
 
 /** What the order of the cards means. */
 function explanation(page: Page): string {
+  if (page.polarity === "both")
+    return (
+      "Most important first, by contrast × size: how much its values differ from those around it, summed over its volume. " +
+      "Numbers with “low” are objects of low values, such as lungs, pores, channels and cavities; background comes last."
+    );
   const side = page.polarity === "low" ? "higher" : "lower";
   const cavities = hasCavities(page) ? ` Cavities are enclosed regions of ${side} values, drawn as the surface around them.` : "";
   return `Most important first, by contrast × size: how much its values differ from those around it, summed over its volume.${cavities}`;
@@ -89,16 +99,27 @@ function start(page: Page, main: HTMLElement): void {
   const status = html("p", { class: "message", role: "status" });
   const lanes = html("div", {});
   const rest = html("div", {});
-  const counts = curve(page);
+  const counts = curves(page);
+  const background = html("ol", { class: "cards" });
+  const folded = html(
+    "details",
+    { class: "background" },
+    html("summary", {}, "Background: outlines of nearly the whole volume, and what is around everything"),
+    background,
+  );
   const show = (choice: Choice): void => {
     const kept = chosenBranches(page, choice);
     const entries = chosenEntries(page, choice);
-    cards.replaceChildren(...entries.map((i) => items[i] as HTMLElement));
+    const isBackground = (i: number): boolean => page.entries[i]?.background === true;
+    cards.replaceChildren(...entries.filter((i) => !isBackground(i)).map((i) => items[i] as HTMLElement));
+    background.replaceChildren(...entries.filter(isBackground).map((i) => items[i] as HTMLElement));
+    folded.hidden = background.children.length === 0;
     status.textContent = entries.length === items.length ? "" : `${count(entries.length)} of ${count(items.length)} pictures shown`;
     lanes.replaceChildren(overview(page, kept, open));
     const pictured = new Set(page.entries.map((entry) => entry.branch));
     rest.replaceChildren(others(page, [...kept].filter((b) => !pictured.has(b))) ?? "");
-    counts?.mark([...kept].filter((b) => page.branches[b]?.side === "object").length);
+    for (const { polarity, mark } of counts)
+      mark([...kept].filter((b) => page.branches[b]?.side === "object" && page.branches[b].polarity === polarity).length);
   };
   main.append(about(page));
   const constant = page.volume.low === page.volume.high;
@@ -107,12 +128,12 @@ function start(page: Page, main: HTMLElement): void {
     const { keep, filter } = controls(page, show);
     main.append(
       html("section", { class: "panel" }, html("h2", {}, "Objects over the isovalue"), keep, lanes),
-      html("section", {}, html("h2", {}, heading(page)), html("p", { class: "note" }, explanation(page)), filter, status, cards),
+      html("section", {}, html("h2", {}, heading(page)), html("p", { class: "note" }, explanation(page)), filter, status, cards, folded),
       rest,
     );
   }
   const last = html("footer", {}, `isoatlas ${page.version}, interpolant ${page.interpolant}. This page loads nothing from elsewhere.`);
-  main.append(spectrum(page) ?? "", constant ? "" : (counts?.panel ?? ""), glossary(), last, detail.dialog);
+  main.append(spectrum(page) ?? "", ...(constant ? [] : counts.map(({ panel }) => panel)), glossary(page), last, detail.dialog);
   detail.openAt(location.hash);
 }
 

@@ -3,7 +3,7 @@ import { commandList } from "../shared/commands";
 import { html } from "../shared/dom";
 import { count, plural, value, volume } from "../shared/format";
 import { rangeOf, voxelWord } from "../shared/names";
-import { branchOf, type Branch, type Page } from "../shared/page";
+import { branchOf, isLowOfBoth, type Branch, type Page } from "../shared/page";
 
 const maxRows = 100;
 
@@ -17,7 +17,7 @@ function row(page: Page, branch: Branch): HTMLElement {
   return html(
     "tr",
     {},
-    html("th", { scope: "row" }, branch.number ? String(branch.number) : voxelWord(branch.id)),
+    html("th", { scope: "row" }, (isLowOfBoth(page, branch) ? "low" : "") + (branch.number ? String(branch.number) : voxelWord(branch.id))),
     html("td", {}, rangeOf(branch, page)),
     html("td", {}, volume(branch.measure, page.volume.unit)),
     html("td", {}, value(branch.hypervolume)),

@@ -3,7 +3,7 @@ import { Axis, axisName, drawingWidth, drawTicks } from "../shared/axis";
 import { columnAt, countWords, drawCounts, Scale, type Line } from "./columns";
 import { html, svg } from "../shared/dom";
 import { value } from "../shared/format";
-import type { Counts, Page } from "../shared/page";
+import type { Counts, Page, Spectrum } from "../shared/page";
 
 function linesOf(counts: Counts): Line[] {
   return [
@@ -18,17 +18,39 @@ export function legend(lines: Line[]): HTMLElement {
   return html("p", { class: "legend" }, ...lines.map((line) => html("span", { class: line.name }, line.name)));
 }
 
+interface Counted {
+  name: string;
+  of: Spectrum;
+  counts: Counts;
+}
+
+/** What can be counted: objects of both polarities where the page has both. */
+function choicesOf(page: Page): Counted[] {
+  const two = page.polarity === "both";
+  return [
+    { of: page.spectrum, side: two ? " of high values" : "" },
+    { of: page.low?.spectrum ?? null, side: " of low values" },
+  ].flatMap(({ of, side }) => {
+    if (!of || of.edges.length < 2) return [];
+    return [
+      { name: `all objects${side}`, of, counts: of.all },
+      { name: `significant objects${side}${two ? "" : " only"}`, of, counts: of.significant },
+    ];
+  });
+}
+
 export function spectrum(page: Page): HTMLElement | null {
-  const data = page.spectrum;
-  if (!data || data.edges.length < 2) return null;
+  const choices = choicesOf(page);
+  const [first] = choices;
+  if (!first) return null;
+  let data = first.of;
   const [width, height, bottom] = [drawingWidth(), 250, 210];
   const axis = Axis.of(page, width, 14);
-  const whole = new Scale(linesOf(data.all), 14, bottom);
+  const scales = new Map(choices.map(({ of }) => [of, new Scale(linesOf(of.all), 14, bottom)]));
   const which = html(
     "select",
     { name: "counted" },
-    html("option", { value: "all" }, "all objects"),
-    html("option", { value: "significant" }, "significant objects only"),
+    ...choices.map(({ name }, i) => html("option", { value: i }, name)),
   );
   const at = html("input", {
     type: "range",
@@ -47,11 +69,11 @@ export function spectrum(page: Page): HTMLElement | null {
     "aria-label": "Counts over the isovalue, logarithmic",
   });
   const needle = svg("line", { class: "needle", y1: 8, y2: bottom });
-  const lines = (): Line[] => linesOf(which.value === "all" ? data.all : data.significant);
+  const lines = (): Line[] => linesOf((choices[Number(which.value)] ?? first).counts);
   const draw = (): void => {
     drawing.replaceChildren(
       drawTicks(axis, bottom, width / 110),
-      drawCounts(data.edges, lines(), axis, whole),
+      drawCounts(data.edges, lines(), axis, scales.get(data) as Scale),
       needle,
       svg("text", { class: "caption", x: width - 14, y: height - 4, "text-anchor": "end" }, axisName(page)),
     );
@@ -73,6 +95,10 @@ export function spectrum(page: Page): HTMLElement | null {
   });
   at.addEventListener("input", read);
   which.addEventListener("input", () => {
+    const tau = data.edges[Number(at.value)] ?? page.axis.low;
+    data = (choices[Number(which.value)] ?? first).of;
+    at.max = String(data.edges.length - 2);
+    at.value = String(columnAt(data.edges, tau));
     draw();
     read();
   });

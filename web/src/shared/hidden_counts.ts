@@ -4,6 +4,7 @@ import type { Page } from "./page";
 
 /** Sentences: how many objects and cavities there are, are shown, and are hidden, and why. */
 export function hiddenSentences(page: Page): string[] {
+  if (page.polarity === "both") return sentencesOfBoth(page);
   const sentences: string[] = [];
   for (const side of ["object", "cavity"] as const) {
     const { all, significant } = side === "object" ? page.found.objects : page.found.cavities;
@@ -18,4 +19,18 @@ export function hiddenSentences(page: Page): string[] {
     sentences.push(`${name} in all, ${count(shown)} shown.${later}${hidden}`);
   }
   return sentences;
+}
+
+/** For objects of high and of low values each. */
+function sentencesOfBoth(page: Page): string[] {
+  const sides = [["high", page.found.objects], ["low", page.low?.found]] as const;
+  return sides.flatMap(([polarity, found]) => {
+    if (!found || found.all === 0) return [];
+    const shown = new Set(page.entries.filter((e) => page.branches[e.branch]?.polarity === polarity).map((e) => e.branch)).size;
+    const rest = found.all - Math.max(found.significant, shown);
+    const more = found.significant - shown;
+    const later = more > 0 ? ` ${count(more)} more ${more === 1 ? "is" : "are"} significant.` : "";
+    const hidden = rest > 0 ? ` ${count(rest)} not shown: below noise level or very small.` : "";
+    return [`${plural(found.all, "object")} of ${polarity} values in all, ${count(shown)} shown.${later}${hidden}`];
+  });
 }

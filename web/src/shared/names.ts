@@ -1,6 +1,6 @@
 // Names and short descriptions of entries.
 import { plural, value, volume } from "./format";
-import { branchOf, entryOf, type Advice, type Branch, type Page } from "./page";
+import { branchOf, entryOf, isLowOfBoth, isOfLowValues, type Advice, type Branch, type Page } from "./page";
 
 export function isCavity(page: Page, i: number): boolean {
   return branchOf(page, entryOf(page, i).branch).side === "cavity";
@@ -15,11 +15,24 @@ export function numberOf(page: Page, i: number): number {
   return page.entries.filter((_, k) => k <= i && isCavity(page, k) === cavity).length;
 }
 
-/** "2", "c1"; of an object that the table does not list "v218663": its voxel. */
+/** "low" before what names an object of low values on a page of both. */
+export function lowMark(page: Page, i: number): string {
+  return isLowOfBoth(page, branchOf(page, entryOf(page, i).branch)) ? "low" : "";
+}
+
+/** "2", "c1", of a page of both "low2"; of an object that the table does not list "v218663": its voxel. */
 export function referenceOf(page: Page, i: number): string {
   const { branch, id } = entryOf(page, i);
-  if (i >= page.entries.length && !branchOf(page, branch).number) return voxelWord(id);
-  return `${isCavity(page, i) ? "c" : ""}${numberOf(page, i)}`;
+  const low = lowMark(page, i);
+  if (i >= page.entries.length && !branchOf(page, branch).number) return `${low}${voxelWord(id)}`;
+  return `${low}${isCavity(page, i) ? "c" : ""}${numberOf(page, i)}`;
+}
+
+/** Which values an entry of a page of both consists of: "at least 300", "at most -400"; of other pages only the isovalue. */
+export function valuesOf(page: Page, i: number): string {
+  const { branch, tau } = entryOf(page, i);
+  if (page.polarity !== "both") return value(tau);
+  return `${branchOf(page, branch).polarity === "low" ? "at most" : "at least"} ${value(tau)}`;
 }
 
 /** A voxel as the command line writes it. */
@@ -32,18 +45,18 @@ export function nameOf(page: Page, i: number): string {
   const { name, branch } = entryOf(page, i);
   if (name) return name;
   if (i >= page.entries.length && !branchOf(page, branch).number) return `Object of rank ${numberOf(page, i)}`;
-  return `${isCavity(page, i) ? "Cavity" : "Object"} ${numberOf(page, i)}`;
+  return `${isCavity(page, i) ? "Cavity" : "Object"} ${lowMark(page, i)}${numberOf(page, i)}`;
 }
 
 /** Id of its card and fragment of its address. */
 export function anchorOf(page: Page, i: number): string {
-  return `${isCavity(page, i) ? "cavity" : "object"}-${numberOf(page, i)}`;
+  return `${isCavity(page, i) ? "cavity" : "object"}-${lowMark(page, i)}${numberOf(page, i)}`;
 }
 
 /** The isovalues between its appearance and its merge. */
 export function rangeOf(branch: Branch, page?: Page): string {
   const first = value(branch.appears);
-  if (branch.merges === null) return `from ${first} ${page?.polarity === "low" ? "upwards" : "downwards"}, never merges`;
+  if (branch.merges === null) return `from ${first} ${page && isOfLowValues(page, branch) ? "upwards" : "downwards"}, never merges`;
   const ends = [branch.merges, branch.appears].sort((p, q) => p - q).map(value);
   return ends.join(" to ");
 }
@@ -58,7 +71,8 @@ export function shapeOf(page: Page, i: number): string {
 
 export function describe(page: Page, i: number): string {
   const entry = entryOf(page, i);
-  return `${nameOf(page, i)} at isovalue ${value(entry.tau)}: ${volume(entry.measure, page.volume.unit)}, ${shapeOf(page, i)}`;
+  const values = page.polarity === "both" ? `, values ${valuesOf(page, i)}` : ` at isovalue ${value(entry.tau)}`;
+  return `${nameOf(page, i)}${values}: ${volume(entry.measure, page.volume.unit)}, ${shapeOf(page, i)}`;
 }
 
 const reasons: Record<string, string> = {
@@ -84,9 +98,15 @@ function mentionOf(page: Page, i: number): string {
 /** What contains it, in a few words; empty: no entry of this page. */
 export function placeOf(page: Page, i: number): string {
   const entry = entryOf(page, i);
-  if (entry.inside >= 0) return `inside ${mentionOf(page, entry.inside)}`;
+  if (entry.inside >= 0 && !entry.enclosed) return `inside ${mentionOf(page, entry.inside)}`;
   if (entry.around >= 0) return `a cavity of ${mentionOf(page, entry.around)}`;
-  return "";
+  return entry.enclosed ? "a cavity" : "";
+}
+
+/** The branches of a list as they merge while the object that they merge into grows. */
+export function inOrderOfMerges(page: Page, branches: number[]): number[] {
+  const merge = (b: number): number => (branchOf(page, b).merges ?? 0) * (isOfLowValues(page, branchOf(page, b)) ? 1 : -1);
+  return branches.sort((p, q) => merge(p) - merge(q));
 }
 
 /** Entries directly contained in this one. */
@@ -111,5 +131,6 @@ export function furtherIsovalues(page: Page, i: number): Advice[] {
 /** Name of a branch: that of its first entry. */
 export function branchName(page: Page, branch: number): string {
   const [first] = entriesOf(page, branch);
-  return first === undefined ? `object ${voxelWord(branchOf(page, branch).id)}` : nameOf(page, first);
+  const low = isLowOfBoth(page, branchOf(page, branch)) ? "low" : "";
+  return first === undefined ? `object ${low}${voxelWord(branchOf(page, branch).id)}` : nameOf(page, first);
 }

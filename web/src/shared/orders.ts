@@ -2,7 +2,7 @@
 import { branchOf, endOfBranch, type Branch, type Entry, type Page } from "./page";
 
 export const orders: [string, (page: Page, p: Entry, q: Entry) => number][] = [
-  ["rank", (page, p, q) => byRank(branchOf(page, p.branch), branchOf(page, q.branch))],
+  ["rank", (page, p, q) => (page.polarity === "both" ? 0 : byRank(branchOf(page, p.branch), branchOf(page, q.branch)))],
   ["size", (_, p, q) => q.voxels - p.voxels],
   ["isovalue", (_, p, q) => q.tau - p.tau],
   ["range of isovalues", (page, p, q) => length(page, q) - length(page, p)],
@@ -10,7 +10,7 @@ export const orders: [string, (page: Page, p: Entry, q: Entry) => number][] = [
   ["cavities", (_, p, q) => q.cavities - p.cavities],
 ];
 
-/** Objects and cavities by contrast x size, which both sides share; the object that never merges comes first. */
+/** Entries of a page of both are in this order already. Objects and cavities by contrast x size, which both sides share; the object that never merges comes first. */
 export function byRank(p: Branch, q: Branch): number {
   const size = (branch: Branch): number => (branch.merges === null ? Infinity : branch.hypervolume);
   return size(p) === size(q) ? 0 : size(q) > size(p) ? 1 : -1;

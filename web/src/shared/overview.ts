@@ -4,7 +4,7 @@ import { Axis, axisName, drawingWidth, drawTicks, histogramPath } from "./axis";
 import { svg } from "./dom";
 import { value } from "./format";
 import { describe, entriesOf, furtherIsovalues, isCavity, nameOf, numberOf } from "./names";
-import { branchOf, endOfBranch, entryOf, type Page } from "./page";
+import { branchOf, endOfBranch, entryOf, isLowOfBoth, type Page } from "./page";
 
 const head = 90;
 const neutral = "var(--soft)";
@@ -101,7 +101,7 @@ function mark(page: Page, i: number, axis: Axis, y: number, open: (i: number) =>
     role: "button",
     "aria-label": describe(page, i),
   });
-  const shape = isCavity(page, i)
+  const shape = isCavity(page, i) || isLowOfBoth(page, branchOf(page, entry.branch))
     ? svg("rect", { x: x - radius, y: y - radius, width: 2 * radius, height: 2 * radius, rx: 3, fill: entry.colour })
     : svg("circle", { cx: x, cy: y, r: radius, fill: entry.colour });
   group.append(

@@ -59,6 +59,8 @@ export interface Advice {
 /** A branch of the branch decomposition, between appears and merges. Objects by rank, then cavities by rank. */
 export interface Branch {
   side: Side;
+  /** pages of both: which values it consists of */
+  polarity?: "high" | "low";
   id: number;
   /** of its first entry in the table of its side, from 1; null: the table has none */
   number?: number | null;
@@ -90,6 +92,14 @@ export interface Entry {
   number?: number | null;
   /** that a user gave it */
   name?: string | null;
+  /** as commands take it: 2, c1, low2 */
+  reference?: string;
+  /** pages of both: an outline of nearly the whole volume, or what is around everything */
+  background?: boolean;
+  /** pages of both: of low values, and does not reach the border: a cavity of `around`, where that is on the page */
+  enclosed?: boolean;
+  /** pages of both: where it reaches the border, in words; empty: it does not, or is of high values */
+  border?: string;
   id: number;
   tau: number;
   /** isovalues between which its tunnels and cavities stay the same */
@@ -103,7 +113,7 @@ export interface Entry {
   cavities: number;
   /** the entry that contains it, -1: none */
   inside: number;
-  /** of a cavity: the entry of the object that encloses it, -1: none */
+  /** of a cavity, or of low values and enclosed: the entry of the object around it, -1: none */
   around: number;
   /** reason for this isovalue, as a key and as a sentence; empty: unknown */
   reason: string;
@@ -162,8 +172,10 @@ export interface Page {
   /** offered where the noise is strong: its part of the range of values, and the command that makes the page of the filtered volume */
   smoothing?: { noisePart: number; sigma: number; command: string } | null;
   interpolant: string;
-  /** objects of high values, or of low ones: those appear at their lowest value and merge at a higher one; absent: high */
-  polarity?: "high" | "low";
+  /** objects of high values, or of low ones: those appear at their lowest value and merge at a higher one; absent: high; both: the
+   * entries of both in one list, and all that is not about a branch or in `low` is of high values */
+  polarity?: "high" | "low" | "both";
+  low?: { found: Found; noise: number; spectrum: Spectrum | null; curve: Curve };
   found: { objects: Found; cavities: Found };
   /** bend: null for a linear axis; else equal steps of asinh((value - low) / bend) */
   axis: { low: number; high: number; bend: number | null };
@@ -194,8 +206,18 @@ export function branchOf(page: Page, b: number): Branch {
   return branch;
 }
 
+/** Does a branch consist of samples of at most its isovalues? */
+export function isOfLowValues(page: Page, branch: Branch): boolean {
+  return (branch.polarity ?? page.polarity) === "low";
+}
+
+/** Is it of low values among others of high ones? */
+export function isLowOfBoth(page: Page, branch: Branch): boolean {
+  return page.polarity === "both" && branch.polarity === "low";
+}
+
 /** Where the isovalues of a branch end that never merges: the end of the axis on the side of its merges. */
 export function endOfBranch(page: Page, branch: Branch): number {
-  const grows = (page.polarity === "low") !== (branch.side === "cavity");
+  const grows = isOfLowValues(page, branch) !== (branch.side === "cavity");
   return branch.merges ?? (grows ? page.axis.high : page.axis.low);
 }

@@ -1,5 +1,6 @@
 // The viewer: state (state/), drawing (scene/), and the parts that act on them.
 import { html } from "../shared/dom";
+import { referenceOf } from "../shared/names";
 import type { Page } from "../shared/page";
 import { Actions } from "./context/actions";
 import { fromHash, toHash } from "./state/address";
@@ -74,7 +75,7 @@ class Viewer implements ViewerContext {
     this.actions.listen(document);
     this.listenToClicks();
     if (linked) this.show(linked, NOTHING, false);
-    else if (page.entries.length > 0) this.editor.init(0);
+    else if (page.entries.length > 0) this.editor.init(firstOf(page, location.hash));
     else {
       this.show(NOTHING, NOTHING, false);
       this.notify("No objects to show: all of them are below noise level.");
@@ -124,6 +125,14 @@ class Viewer implements ViewerContext {
     this.scene.show(state, before, dragging);
     if (state.view && state.view !== before.view) this.viewport.rig.view = state.view; // all digits: same pixels by link
   }
+}
+
+/** The entry that an address names by its reference, "#low2"; else the first one. */
+function firstOf(page: Page, hash: string): number {
+  return Math.max(
+    0,
+    page.entries.findIndex((_, i) => `#${referenceOf(page, i)}` === hash),
+  );
 }
 
 /** The key of this browser, issued by the server; every request carries it in addition to a cookie. */

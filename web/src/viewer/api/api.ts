@@ -7,7 +7,10 @@ import type { ShellFilter } from "../state/state";
 import { decodeMesh, type Mesh } from "./wire";
 
 /** Target of a surface: the object that contains a voxel, the wall of a cavity, or the whole isosurface. */
-export type SurfaceTarget = { object: number } | { contour: number } | null;
+export type SurfaceTarget = ({ object: number } | { contour: number }) & { polarity?: Polarity } | null;
+
+/** of requests about objects of low values of a page of both */
+export type Polarity = "low" | undefined;
 
 export interface Preview {
   tau: number;
@@ -47,6 +50,7 @@ export interface Measures extends ObjectAtIsovalue {
 export interface GivenName {
   name: string;
   side: "object" | "cavity";
+  polarity?: "high" | "low";
   id: number;
   tau: number;
 }
@@ -102,14 +106,14 @@ export class Api {
   }
 
   /** object: include this object; null: none. */
-  preview(tau: number, object: number | null): Promise<Preview> {
-    const path = `/api/preview?tau=${tau}${object === null ? "" : parameters({ object })}`;
+  preview(tau: number, object: number | null, polarity?: Polarity): Promise<Preview> {
+    const path = `/api/preview?tau=${tau}${object === null ? "" : parameters({ object })}${ofPolarity(polarity)}`;
     return this.request(path, PREVIEW_CHANNEL).then((response) => response.json() as Promise<Preview>);
   }
 
   /** Of the objects that contain these voxels. */
-  async measures(tau: number, objects: number[]): Promise<Measures[]> {
-    const path = `/api/measures?tau=${tau}&object=${objects.map(voxelWord).join(",")}`;
+  async measures(tau: number, objects: number[], polarity?: Polarity): Promise<Measures[]> {
+    const path = `/api/measures?tau=${tau}&object=${objects.map(voxelWord).join(",")}${ofPolarity(polarity)}`;
     const response = (await (await this.request(path, "measures")).json()) as {
       objects: Measures[];
     };
@@ -133,8 +137,8 @@ export class Api {
   }
 
   /** The file that `isoatlas label` writes: of one object, or of all. */
-  async labels(tau: number, object: number | null, format: string): Promise<Blob> {
-    const of = parameters(object === null ? null : { object });
+  async labels(tau: number, object: number | null, format: string, polarity?: Polarity): Promise<Blob> {
+    const of = parameters(object === null ? null : { object }) + ofPolarity(polarity);
     return (await this.request(`/api/label?tau=${tau}${of}&format=${format}`, "file")).blob();
   }
 
@@ -195,9 +199,13 @@ function shell(walls: ShellFilter): string {
 
 function parameters(target: SurfaceTarget | { entry: number } | { branch: number }): string {
   const word = (name: string, id: number): string => (name === "object" || name === "contour" ? voxelWord(id) : String(id));
-  return Object.entries(target ?? {})
-    .map(([name, id]) => `&${name}=${word(name, id as number)}`)
-    .join("");
+  const { polarity, ...named } = (target ?? {}) as { polarity?: Polarity } & Record<string, number>;
+  const words = Object.entries(named).map(([name, id]) => `&${name}=${word(name, id)}`);
+  return words.join("") + ofPolarity(polarity);
+}
+
+function ofPolarity(polarity: Polarity): string {
+  return polarity === undefined ? "" : `&polarity=${polarity}`;
 }
 
 async function messageOf(response: Response): Promise<string> {

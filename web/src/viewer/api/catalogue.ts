@@ -1,7 +1,7 @@
-// All objects of a volume, including those without an entry on the page. Each has a number like that of an entry:
+// All objects of a volume, including those without an entry on the page; of a page of both polarities those of high values. Each has a number like that of an entry:
 // the object of rank r without an entry has the number entries.length + r.
 import { voxelWord } from "../../shared/names";
-import { entryOf, type Branch, type Entry, type Page } from "../../shared/page";
+import { entryOf, isLowOfBoth, type Branch, type Entry, type Page } from "../../shared/page";
 import { CHOICE, isChosen, type Choice, type Sizes } from "../state/selection";
 import type { State } from "../state/state";
 
@@ -107,12 +107,18 @@ export class Catalogue {
   numberOfBranch(branch: number): number | undefined {
     const [own] = this.entriesOfPosition.get(branch) ?? [];
     const { side, rank } = this.page.branches[branch] ?? {};
-    return own !== undefined || side !== "object" || rank === undefined || !this.isLoaded ? own : this.numbersOfRank(rank)[0];
+    const isListed = side === "object" && this.isListed(this.page.branches[branch] as Branch);
+    return own !== undefined || !isListed || rank === undefined || !this.isLoaded ? own : this.numbersOfRank(rank)[0];
+  }
+
+  /** Does the server list it? Of a page of both those of high values; of low values there are those of the page. */
+  private isListed(branch: Branch): boolean {
+    return branch.side === "object" && !isLowOfBoth(this.page, branch);
   }
 
   private completeBranches(): void {
     const { branches } = this.page;
-    branches.forEach((branch, b) => branch.side === "object" && (this.positionOfRank[branch.rank] = b));
+    branches.forEach((branch, b) => this.isListed(branch) && (this.positionOfRank[branch.rank] = b));
     this.listed.id.forEach((_, rank) => (this.positionOfRank[rank] ??= branches.push(this.branchOfRank(rank)) - 1));
     this.listed.parent.forEach((parent, rank) => {
       const [own, other] = [branches[this.positionOfRank[rank] ?? -1], this.positionOfRank[parent]];
@@ -124,6 +130,7 @@ export class Catalogue {
     const { listed } = this;
     return {
       side: "object",
+      ...(this.page.polarity === "both" ? { polarity: "high" as const } : {}),
       id: listed.id[rank] ?? -1,
       number: listed.number?.[rank] ?? null,
       rank,

@@ -1,14 +1,21 @@
 // Entries of a scene: entry i of the page, or the whole isosurface (-1).
 import { isCavity, nameOf } from "../../shared/names";
-import { branchOf, endOfBranch, entryOf, type Branch, type Page } from "../../shared/page";
-import type { SurfaceTarget } from "./api";
+import { branchOf, endOfBranch, entryOf, isLowOfBoth, type Branch, type Page } from "../../shared/page";
+import type { Polarity, SurfaceTarget } from "./api";
 import type { Shown } from "../state/state";
 
 export const EVERYTHING = -1;
 
 export function targetOf(page: Page, i: number): SurfaceTarget {
   if (i === EVERYTHING) return null;
-  return isCavity(page, i) ? { contour: entryOf(page, i).id } : { object: entryOf(page, i).id };
+  const polarity = polarityOfEntry(page, i);
+  const of = polarity === undefined ? {} : { polarity };
+  return isCavity(page, i) ? { contour: entryOf(page, i).id, ...of } : { object: entryOf(page, i).id, ...of };
+}
+
+/** For requests. */
+export function polarityOfEntry(page: Page, i: number): Polarity {
+  return i !== EVERYTHING && isLowOfBoth(page, branchOf(page, entryOf(page, i).branch)) ? "low" : undefined;
 }
 
 export function titleOf(page: Page, i: number): string {

@@ -36,8 +36,9 @@ export async function locate(api: Api, page: Page, state: State, voxel: Triple):
   for (const { entry, tau, visible } of state.shown) {
     const target = targetOf(page, entry);
     if (!target || !visible) continue;
-    if ("object" in target) parameters.object.push(`${voxelWord(target.object)}@${tau}`), objects.push(entry);
-    else parameters.contour.push(`${voxelWord(target.contour)}@${tau}`), contours.push(entry);
+    const low = target.polarity ?? "";
+    if ("object" in target) parameters.object.push(`${low}${voxelWord(target.object)}@${tau}`), objects.push(entry);
+    else parameters.contour.push(`${low}${voxelWord(target.contour)}@${tau}`), contours.push(entry);
   }
   const query = Object.entries(parameters).map(([name, items]) => (items.length > 0 ? `&${name}=${items.join(",")}` : ""));
   const response = (await (await api.request(`/api/at?voxel=${voxel.join(",")}${query.join("")}`, "at")).json()) as LocateResponse;

@@ -7,7 +7,9 @@ import type { Api, GivenName } from "./api";
 export function applyNames(page: Page, names: readonly GivenName[]): void {
   page.entries.forEach((entry, i) => {
     const side = isCavity(page, i) ? "cavity" : "object";
-    entry.name = names.find((one) => one.side === side && one.id === entry.id && one.tau === entry.tau)?.name ?? null;
+    const polarity = page.branches[entry.branch]?.polarity; // of pages of both
+    const isOf = (one: GivenName): boolean => one.side === side && (polarity === undefined || polarity === (one.polarity ?? "high"));
+    entry.name = names.find((one) => isOf(one) && one.id === entry.id && one.tau === entry.tau)?.name ?? null;
   });
 }
 

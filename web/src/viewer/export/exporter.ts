@@ -7,7 +7,7 @@ import { drawPicture, pngOf, type PictureOptions } from "./picture";
 import { renderCommand } from "./render_command";
 import type { Shown } from "../state/state";
 import { readScene, writeScene } from "./scene_file";
-import { EVERYTHING, titleOf, targetOf } from "../api/entries";
+import { EVERYTHING, polarityOfEntry, titleOf, targetOf } from "../api/entries";
 import { tableCsv } from "./table_csv";
 import { isDarkPage } from "../context/theme";
 
@@ -37,7 +37,7 @@ export class Exporter {
     const { api, page } = this.context;
     const all = shown.entry === EVERYTHING || isCavity(page, shown.entry);
     return this.file(`${this.name}.${format}`, "writing the labels", () =>
-      api.labels(shown.tau, all ? null : entryOf(page, shown.entry).id, format),
+      api.labels(shown.tau, all ? null : entryOf(page, shown.entry).id, format, polarityOfEntry(page, shown.entry)),
     );
   }
 

@@ -1,7 +1,7 @@
 // An object in a list, as a row or a card with a picture. A click isolates it; shift-click or its checkbox adds it.
 import { html } from "../../shared/dom";
-import { value, volume } from "../../shared/format";
-import { placeOf, rangeOf, reasonOf, shapeOf } from "../../shared/names";
+import { volume } from "../../shared/format";
+import { placeOf, rangeOf, reasonOf, shapeOf, valuesOf } from "../../shared/names";
 import { rangeBar } from "../../shared/overview";
 import { entryOf, type Page } from "../../shared/page";
 import type { Pictures } from "../api/pictures";
@@ -49,11 +49,16 @@ function choose(event: Event, i: number, selector: ObjectSelector): void {
   else selector.isolate(i);
 }
 
+/** "at 300"; of a page of both "values at most 300". */
+function isovalueOf(page: Page, i: number): string {
+  return `${page.polarity === "both" ? "values" : "at"} ${valuesOf(page, i)}`;
+}
+
 /** Facts of a row, most important first. */
 function about(page: Page, i: number): string[] {
   if (i === EVERYTHING) return ["at one isovalue"];
   const entry = entryOf(page, i);
-  const parts = [`at ${value(entry.tau)}`, volume(entry.measure, page.volume.unit), shapeOf(page, i), reasonOf(page, i), placeOf(page, i)];
+  const parts = [isovalueOf(page, i), volume(entry.measure, page.volume.unit), shapeOf(page, i), reasonOf(page, i), placeOf(page, i)];
   return parts.filter((part) => part !== "");
 }
 
@@ -63,6 +68,6 @@ function cardLines(page: Page, i: number): string[] {
   const entry = entryOf(page, i);
   const reason = reasonOf(page, i);
   const shape = entry.tunnels + entry.cavities > 0 ? shapeOf(page, i) : "";
-  const parts = [volume(entry.measure, page.volume.unit), `at ${value(entry.tau)}${reason ? ` (${reason})` : ""}`, shape, placeOf(page, i)];
+  const parts = [volume(entry.measure, page.volume.unit), `${isovalueOf(page, i)}${reason ? ` (${reason})` : ""}`, shape, placeOf(page, i), entry.border ?? ""];
   return parts.filter((part) => part !== "");
 }

@@ -3,7 +3,7 @@ import { area, count, length, plural, value, volume } from "../../shared/format"
 import { entryOf, type Page } from "../../shared/page";
 import { isSuperseded, type Measures } from "../api/api";
 import type { ViewerContext } from "../context/viewer_context";
-import { branchOfShown } from "../api/entries";
+import { branchOfShown, polarityOfEntry } from "../api/entries";
 import type { Shown } from "../state/state";
 
 /** Is it at the isovalue of its entry? Then its number of voxels is known exactly. */
@@ -16,7 +16,7 @@ export async function measuredFacts({ api, page }: ViewerContext, shown: Shown):
   if (branchOfShown(page, shown.entry)?.side !== "object") return [];
   const { id, voxels, measure } = entryOf(page, shown.entry);
   try {
-    const [there] = await api.measures(shown.tau, [id]);
+    const [there] = await api.measures(shown.tau, [id], polarityOfEntry(page, shown.entry));
     if (!there) return [];
     const known = isMeasuredAtEntry(page, shown) ? { ...there, voxels: [voxels, voxels] as [number, number] } : there;
     return factsOf(known, id, shown.tau, page.volume.unit, voxels > 0 ? measure / voxels : 1);

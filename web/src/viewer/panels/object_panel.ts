@@ -1,7 +1,7 @@
 // The selected object: its measures, its range of isovalues, and its relations to other objects, as links.
 import { html } from "../../shared/dom";
 import { count, plural, value, volume } from "../../shared/format";
-import { contentsOf, entriesOf, placeOf, rangeOf, shapeOf } from "../../shared/names";
+import { contentsOf, entriesOf, inOrderOfMerges, placeOf, rangeOf, shapeOf } from "../../shared/names";
 import { branchOf, entryOf } from "../../shared/page";
 import type { ViewerContext } from "../context/viewer_context";
 import { Latest } from "../api/latest";
@@ -115,7 +115,7 @@ export class ObjectPanel {
     const arriving = page.branches
       .flatMap((other, b) => (other.parent === entry.branch ? [b] : []))
       .filter((b) => entriesOf(page, b).length > 0);
-    arriving.sort((p, q) => (branchOf(page, q).merges ?? 0) - (branchOf(page, p).merges ?? 0));
+    inOrderOfMerges(page, arriving);
     facts.push([
       "merged objects",
       this.links(

@@ -1,6 +1,6 @@
 // Filters and sorts the chosen objects. Numbers are those of entries (api/catalogue.ts).
 import { orders } from "../../shared/orders";
-import { isCavity, numberOf, placeOf, reasonOf, voxelWord } from "../../shared/names";
+import { isCavity, numberOf, placeOf, reasonOf, referenceOf, voxelWord } from "../../shared/names";
 import { entryOf, type Page } from "../../shared/page";
 import { EVERYTHING, titleOf } from "../api/entries";
 import type { State } from "../state/state";
@@ -35,6 +35,7 @@ export function find(page: Page, chosen: number[], shown: State["shown"], wanted
 function isAbout(page: Page, i: number, word: string): boolean {
   const texts = [titleOf(page, i), reasonOf(page, i), placeOf(page, i)].map((text) => text.toLowerCase());
   if (/^\d+$/.test(word)) return i !== EVERYTHING && numberOf(page, i) === Number(word);
+  if (/^low\d+$/.test(word)) return i !== EVERYTHING && referenceOf(page, i) === word;
   if (/^v\d+$/.test(word)) return i !== EVERYTHING && voxelWord(entryOf(page, i).id) === word;
   return texts.some((text) => text.includes(word));
 }

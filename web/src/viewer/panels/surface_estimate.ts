@@ -3,7 +3,7 @@ import { count, plural, value } from "../../shared/format";
 import { entryOf } from "../../shared/page";
 import type { Preview } from "../api/api";
 import type { ViewerContext } from "../context/viewer_context";
-import { branchOfShown } from "../api/entries";
+import { branchOfShown, polarityOfEntry } from "../api/entries";
 import type { Shown } from "../state/state";
 
 /** on the wire: docs/server.md */
@@ -11,7 +11,7 @@ const BYTES_A_TRIANGLE = 2.7;
 
 export async function badgeOf({ api, page }: ViewerContext, shown: Shown): Promise<string> {
   const isObject = branchOfShown(page, shown.entry)?.side === "object";
-  const preview = await api.preview(shown.tau, isObject ? entryOf(page, shown.entry).id : null);
+  const preview = await api.preview(shown.tau, isObject ? entryOf(page, shown.entry).id : null, polarityOfEntry(page, shown.entry));
   return `${preview.object ? `this object: ${shapeText(preview.object)}; ` : ""}${allText(preview)}`;
 }
 
