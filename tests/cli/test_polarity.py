@@ -141,7 +141,7 @@ class Polarity(harness.CliTest):
         self.assertEqual(len(self.run_json("objects", "v.nrrd", "--polarity", "both", "--top", "3")["objects"]), 3)
         for words in (["--tau", "100"], ["--cavities"], ["--both"]):
             self.run_error(2, "objects", "v.nrrd", "--polarity", "both", *words, says="polarity")
-        for verb in ("tree", "extract", "view"):
+        for verb in ("tree", "extract"):
             self.run_error(2, verb, "v.nrrd", "--polarity", "both", *(["-o", "x.ply"] if verb == "extract" else []), says="of high or of low")
 
     def test_numbers_and_names_of_a_polarity(self):
@@ -167,7 +167,10 @@ class Polarity(harness.CliTest):
             self.assert_schema(names, "name")
             self.assertEqual([n["name"] for n in names["names"]], [name])
         self.assertIn("channel", self.run_ok("objects", "both.atlas", "--polarity", "both").stdout)
-        self.run_error(6, "extract", "both.atlas", "--object", "channel", "-o", "one.ply")
+        for name, side in (("channel", "low"), ("block", "high")):   # a name is looked for on both sides
+            surface = self.run_json("extract", "both.atlas", "--object", name, "-o", "one.ply")
+            self.assertEqual((surface["surfaces"][0]["id"], surface["polarity"]), (tables[side][0]["id"], side))
+        self.run_error(2, "name", "both.atlas", "low2", "block", says="of high values has the name")
         self.run_ok("name", "both.atlas", "--remove", "channel", "--polarity", "low")
         self.run_ok("name", "both.atlas", "--remove", "block")
 

@@ -56,7 +56,7 @@ class View(harness.CliTest):
         atlas = self.json_of("/api/atlas")
         self.assert_schema(atlas, "page")
         table = self.run_json("objects", "field.atlas")
-        objects = [entry for entry in atlas["entries"] if atlas["branches"][entry["branch"]]["side"] == "object"]
+        objects = [entry for entry in atlas["entries"] if atlas["branches"][entry["branch"]]["polarity"] == "high"]
         self.assertEqual([entry["id"] for entry in objects], [entry["id"] for entry in table["objects"]])
         for entry in objects[:3]:
             tau = entry["tau"]
@@ -98,13 +98,12 @@ class View(harness.CliTest):
             self.assertEqual((status, body), (200, (self.folder / ("x." + format)).read_bytes()), format)
 
     def test_numbers_are_those_of_the_command_line(self):
-        table = self.run_json("objects", "field.atlas", "--both")
+        tables = {side: self.run_json("objects", "field.atlas", "--polarity", side)["objects"] for side in ("high", "low")}
         atlas = self.json_of("/api/atlas")
         for entry in atlas["entries"]:
-            side = "cavities" if atlas["branches"][entry["branch"]]["side"] == "cavity" else "objects"
-            same = table[side][entry["number"] - 1]
-            self.assertEqual((entry["id"], entry["tau"]), (same["id"], same["best_tau"]))
-        first = table["objects"][0]
+            same = tables[atlas["branches"][entry["branch"]]["polarity"]][entry["number"] - 1]
+            self.assertEqual((entry["id"], entry["tau"], entry["reference"]), (same["id"], same["best_tau"], same["reference"]))
+        first = tables["high"][0]
         tau = repr(first["best_tau"])
         self.assertEqual(self.ask(f"/api/surface?tau={tau}&object=1")[2], self.ask(f"/api/surface?tau={tau}&object=v{first['id']}")[2])
 

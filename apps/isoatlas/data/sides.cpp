@@ -21,7 +21,7 @@ std::vector<ObjectReference> named_objects(const Arguments& arguments) {
 Arguments of_both_sides(const Arguments& arguments) {
     Arguments own = arguments;
     if (is_atlas(arguments.file)) return own;
-    own.polarity = PolarityChoice::both;
+    own.polarity = PolarityChoice::both, own.has_default_polarity = true;
     const bool are_ends = own.inputs.missing_of_low || own.missing.action == MissingPolicy::Action::below;
     if (!are_ends) return own;
     own.polarity = PolarityChoice::high;

@@ -58,7 +58,9 @@ Beside look_beside(const std::string& store, const Arguments& arguments) {
         beside.is_store = true;
         beside.is_replaceable = atlas.is_replaceable();
         beside.is_present = atlas.has_present_values();
-        beside.differs = differences(atlas, store, arguments);
+        Arguments wanted = arguments;  // what somebody has built is shown as it is
+        if (arguments.has_default_polarity && !beside.is_replaceable) wanted.polarity = atlas.polarities();
+        beside.differs = differences(atlas, store, wanted);
         return beside;
     } catch (const Error& damaged) {
         if (damaged.kind() != ErrorKind::input || damaged.text().file != store) throw;

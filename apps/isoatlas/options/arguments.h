@@ -40,6 +40,7 @@ struct Arguments {
     InputChoices inputs;
     bool voxel_units = false;                ///< measures in voxels, not in the units of the file
     std::optional<PolarityChoice> polarity;  ///< objects of high or low values; none: of high ones, or what a store holds
+    bool has_default_polarity = false;       ///< of page and viewer: both, unless a store that is there holds one
     /// Of verbs that look at one side.
     [[nodiscard]] std::optional<Polarity> side() const {
         if (!polarity || *polarity == PolarityChoice::both) return std::nullopt;

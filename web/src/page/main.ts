@@ -57,7 +57,7 @@ function smoothing(page: Page): HTMLElement[] {
 function verdict(page: Page): string[] {
   if (page.volume.low === page.volume.high) return ["All samples have the same value: there are no objects at any isovalue."];
   if (page.entries.length === 0) return ["No objects to show: all of them are below noise level."];
-  const others = page.polarity === "both" || page.branches.some((branch) => branch.significant && branch.merges !== null);
+  const others = page.branches.some((branch) => branch.significant && branch.merges !== null);
   const noisy =
     1.1 * Math.sqrt(2 * Math.log(page.volume.size.reduce((p, q) => p * q, 1))) * page.volume.noise > page.volume.high - page.volume.low;
   if (!others && noisy)
@@ -67,7 +67,11 @@ function verdict(page: Page): string[] {
     ];
   return others
     ? hiddenSentences(page)
-    : [...hiddenSentences(page), "Only the largest object is significant: the pictures show it at several isovalues."];
+    : [...hiddenSentences(page), `${onlyLargest(page)}: the pictures show ${page.polarity === "both" ? "them" : "it"} at several isovalues.`];
+}
+
+function onlyLargest(page: Page): string {
+  return page.polarity === "both" ? "Only the largest objects of high and of low values are significant" : "Only the largest object is significant";
 }
 
 function hasCavities(page: Page): boolean {

@@ -84,6 +84,10 @@ export class Catalogue {
   get all(): number {
     return this.page.found.objects.all;
   }
+  /** of both polarities, where the page has both */
+  get total(): number {
+    return this.all + (this.page.low?.found.all ?? 0);
+  }
   get source(): string {
     return this.listed.source;
   }

@@ -133,11 +133,11 @@ export class ObjectListPanel {
 
   /** "37 of 18,204 objects shown"; more may be chosen than are listed. */
   private countWords(choice: Choice | null): string {
-    const { all } = this.context.catalogue;
+    const { all, total } = this.context.catalogue;
     const shown = this.context.catalogue.objectsOf(this.chosen);
     const hidden = choice !== null && this.kept > shown ? ` ${count(this.kept)} chosen of` : "";
     const isovalues = this.chosen.length > shown ? ", some at several isovalues" : "";
-    return `${count(shown)} of${hidden} ${plural(all, "object")} shown${isovalues}`;
+    return `${count(shown)} of${hidden} ${plural(choice === null ? total : all, "object")} shown${isovalues}`;
   }
 
   /** Counts the chosen objects where not all objects are listed. */
