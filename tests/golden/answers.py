@@ -22,8 +22,12 @@ OF_PREVIEW = ["objects", "contours", "tunnels"]
 OF_SURFACE = ["points", "triangles", "segments", "objects", "contours", "closed"]
 
 
+SIDE = []   # options of the polarity that is asked about
+
+
 def run(*words):
-    done = subprocess.run([CLI, *map(str, words), "--quiet", "--json"], capture_output=True, text=True)
+    side = [] if words[0] in ("info", "convert") else SIDE
+    done = subprocess.run([CLI, *map(str, words), *side, "--quiet", "--json"], capture_output=True, text=True)
     if done.returncode != 0:
         raise RuntimeError(f"isoatlas {' '.join(map(str, words))}: {done.stderr}")
     return json.loads(done.stdout)
@@ -73,7 +77,23 @@ def at_isovalue(folder, store, tau):
 
 
 def answers(store):
-    """Of a store: volume, samples, parameters, trees, objects, and surfaces at three isovalues."""
+    """Of a store; of one of both polarities also of that of low values, and of both in one list."""
+    answer = answers_of_side(store)
+    try:
+        listed = run("objects", store, "--polarity", "both")["objects"]
+    except RuntimeError:   # of one polarity
+        return answer
+    SIDE[:] = ["--polarity", "low"]
+    try:
+        answer["low"] = answers_of_side(store)
+    finally:
+        SIDE.clear()
+    answer["both"] = [[entry["reference"], entry["id"], entry["best_tau"], entry["inside"], entry["cavity_of"]] for entry in listed]
+    return answer
+
+
+def answers_of_side(store):
+    """Volume, samples, parameters, trees, objects, and surfaces at three isovalues."""
     with tempfile.TemporaryDirectory(prefix="isoatlas-golden-") as name:
         folder = pathlib.Path(name)
         info = run("info", store)
