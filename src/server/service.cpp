@@ -26,7 +26,6 @@ constexpr std::int64_t kMaxListed = 100000, kMaxTriangles = 100'000'000, kMaxFra
 constexpr int kAtOnce = 2;                                      ///< responses at a time
 constexpr std::int64_t kFirstTriangles = 20'000;                ///< max of the first request of a page (web/src/viewer/api/surfaces.ts)
 constexpr std::int64_t kTriangleBytes = 128, kLabelBytes = 24;  ///< bytes while a response is made: per triangle, per voxel
-constexpr std::size_t kMaxObjects = 256;
 constexpr double kStepsOfVoxel = 64;  ///< steps of positions per voxel
 
 /// The entry that every page shows first; null: none, or a cavity.
@@ -51,16 +50,6 @@ double required_tau(QueryParameters& words) {
     const std::optional<double> tau = words.number("tau");
     if (!tau) throw Error(ErrorKind::usage, {.where = "tau", .what = "missing isovalue", .next = "add tau=NUMBER"});
     return *tau;
-}
-
-/// "v1,v2"
-bool only_voxels(std::string_view text) {
-    while (text.starts_with('v')) {
-        const std::size_t comma = text.find(',');
-        if (comma == std::string_view::npos) return true;
-        text.remove_prefix(comma + 1);
-    }
-    return false;
 }
 
 /// The parameter `polarity`, which every request may have, as a member.
@@ -176,26 +165,6 @@ const StoreCatalogue& Service::known(const Request& request) {
 
 const StoreCatalogue& Service::known(const Context& context) {
     return known_.get(context, [sides = store_state_.sides()](const Context& shared) { return load_catalogue(sides, shared); });
-}
-
-const Atlas& Service::atlas(const Request& request) const {
-    const StoreSides sides = store_state_.sides();
-    const Polarity wanted = request.polarity.value_or(polarity_of(sides.main.info()));
-    const Atlas& found = sides.of(wanted);
-    if (polarity_of(found.info()) == wanted) return found;
-    throw Error(ErrorKind::usage, {.where = "polarity",
-                                   .what = std::string("the store does not hold objects of ") + name_of(wanted) + " values",
-                                   .next = "omit it, or build a store of both polarities",
-                                   .reason = Reason::polarity_not_stored,
-                                   .value = name_of(wanted)});
-}
-
-const SideCatalogue& Service::side_of(const Request& request) { return known(request).of(polarity_of(atlas(request).info())); }
-
-NumberedSides Service::numbered_sides(const Request& request) {
-    const StoreCatalogue& known = this->known(request);
-    const Polarity polarity = polarity_of(atlas(request).info());
-    return {store_state_.sides(), known.main.lines, known.low ? &known.low->lines : nullptr, polarity};
 }
 
 void Service::prepare(const Context& context) {
@@ -359,24 +328,6 @@ Response Service::label_answer(const Request& request) {
     Download download(format, context);
     write_labels(download, atlas.info(), labels, origin);
     return file_answer(download.take());
-}
-
-const Atlas& Service::atlas_of_volume(const Request& request) const {
-    const Atlas& found = atlas(request);
-    if (found.info().extent.rank == 3) return found;
-    throw Error(ErrorKind::unsupported, {.what = "the contours of a 2D image are not a surface",
-                                         .next = "write them into a file without the server",
-                                         .reason = Reason::not_in_space});
-}
-
-std::vector<std::int64_t> Service::voxels(QueryParameters& words, std::string_view name, const Request& request) {
-    static const NumberedLines none;
-    const Polarity polarity = polarity_of(atlas(request).info());
-    const auto [first, end] = request.words.equal_range(std::string(name));
-    // Voxels alone need no tables: the first surface of a page does not wait for them.
-    const bool has_numbers = first != end && !only_voxels(first->second);
-    const NumberedSides sides = has_numbers ? numbered_sides(request) : NumberedSides{store_state_.sides(), none, nullptr, polarity};
-    return voxels_of(named_parts(words, name, sides, kMaxObjects), polarity);
 }
 
 Response Service::several_answer(const Request& request) {
