@@ -26,7 +26,7 @@ constexpr std::int64_t kMaxListed = 100000, kMaxTriangles = 100'000'000, kMaxFra
 constexpr int kAtOnce = 2;                                      ///< responses at a time
 constexpr std::int64_t kFirstTriangles = 20'000;                ///< max of the first request of a page (web/src/viewer/api/surfaces.ts)
 constexpr std::int64_t kTriangleBytes = 128, kLabelBytes = 24;  ///< bytes while a response is made: per triangle, per voxel
-constexpr double kStepsOfVoxel = 64;  ///< steps of positions per voxel
+constexpr double kStepsOfVoxel = 64;                            ///< steps of positions per voxel
 
 /// The entry that every page shows first; null: none, or a cavity.
 const NamedEntry* first_of(const StoreCatalogue& known) {

@@ -42,17 +42,19 @@ TEST(LockText, AnythingElseIsABuildThatHasBegun) {
 }
 
 TEST(BuildClock, GoesForwardsOnly) {
-    BuildClock clock;
-    double before = 0;
-    for (int phase = 0; phase < 8; ++phase) {
-        for (const double fraction : {0.0, 0.5, 0.2, 1.0}) {
-            const BuildState state = clock.at({"phase", phase, 8, fraction});
-            EXPECT_GE(state.fraction, before);
-            EXPECT_LE(state.fraction, 1);
-            before = state.fraction;
+    for (const int phases : {8, 14}) {  // of one polarity, of both
+        BuildClock clock;
+        double before = 0;
+        for (int phase = 0; phase < phases; ++phase) {
+            for (const double fraction : {0.0, 0.5, 0.2, 1.0}) {
+                const BuildState state = clock.at({"phase", phase, phases, fraction});
+                EXPECT_GE(state.fraction, before);
+                EXPECT_LE(state.fraction, 1);
+                before = state.fraction;
+            }
         }
+        EXPECT_DOUBLE_EQ(before, 1);
     }
-    EXPECT_EQ(before, 1);
 }
 
 class BuildStates : public oracle::Stores {};
@@ -65,6 +67,18 @@ TEST_F(BuildStates, AreThereWhileItRuns) {
     build_atlas(path_, make_phantom("demo", {.size = 32}), {}, context);
     EXPECT_TRUE(asked);
     EXPECT_FALSE(build_state(path_));
+}
+
+TEST_F(BuildStates, OfBothPolaritiesAreNumberedThrough) {
+    std::vector<int> phases;
+    Context context;
+    context.progress = [&](const Progress& progress) {
+        EXPECT_EQ(progress.phase_count, 14);
+        if (phases.empty() || phases.back() != progress.phase_index) phases.push_back(progress.phase_index);
+    };
+    build_atlas(path_, make_phantom("demo", {.size = 24}), {}, context, PolarityChoice::both);
+    EXPECT_TRUE(std::ranges::is_sorted(phases));
+    EXPECT_EQ(phases.back(), 13);
 }
 
 TEST_F(BuildStates, AskingIsInNobodysWay) {

@@ -71,5 +71,13 @@ TEST(NestedLabels, SayWhichPartIsNotThere) {
     EXPECT_EQ(nested_labels(2, {}, source), (std::vector<std::uint32_t>{0, 0}));
 }
 
+TEST(NestedLabels, OverlaysLeaveSharedVoxelsToTheSmallerOne) {
+    std::vector<std::uint32_t> labels{1, 1, 1, 2, 0, 0};
+    overlay_labels(labels, std::vector<std::uint32_t>{0, 5, 5, 5, 5, 6});
+    EXPECT_EQ(labels, (std::vector<std::uint32_t>{1, 1, 1, 2, 5, 6}));  // 4 voxels of 5, 3 of 1, 1 of 2
+    overlay_labels(labels, std::vector<std::uint32_t>{7, 0, 0, 0, 8, 0});
+    EXPECT_EQ(labels, (std::vector<std::uint32_t>{7, 1, 1, 2, 5, 6}));  // of equal ones that which was there
+}
+
 }  // namespace
 }  // namespace isoatlas

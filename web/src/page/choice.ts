@@ -16,14 +16,14 @@ export function ranked(page: Page): number[] {
   const pictured = new Set(page.entries.map((entry) => entry.branch));
   return page.branches
     .map((_, b) => b)
-    .sort((p, q) => Number(pictured.has(q)) - Number(pictured.has(p)) || inListOfBoth(page, p, q) || byRank(branchOf(page, p), branchOf(page, q)) || p - q);
+    .sort((p, q) => Number(pictured.has(q)) - Number(pictured.has(p)) || inList(page, p, q) || p - q);
 }
 
 /** Entries of a page of both are by importance. */
-function inListOfBoth(page: Page, p: number, q: number): number {
-  if (page.polarity !== "both") return 0;
+function inList(page: Page, p: number, q: number): number {
+  if (page.polarity !== "both") return byRank(branchOf(page, p), branchOf(page, q));
   const place = (b: number): number => page.entries.findIndex((entry) => entry.branch === b);
-  return place(p) - place(q);
+  return place(p) - place(q) || byRank(branchOf(page, p), branchOf(page, q));
 }
 
 /** Number of branches with a picture: those shown initially. */
@@ -41,7 +41,8 @@ export function chosenBranches(page: Page, choice: Choice): Set<number> {
   return new Set(
     kept.filter((b) => {
       const branch = branchOf(page, b);
-      return (choice.side === "all" || branch.side === choice.side || branch.polarity === choice.side) && (choice.minVoxels === 0 || largest(page, b) >= choice.minVoxels);
+      const isOnSide = choice.side === "all" || branch.side === choice.side || branch.polarity === choice.side;
+      return isOnSide && (choice.minVoxels === 0 || largest(page, b) >= choice.minVoxels);
     }),
   );
 }

@@ -30,7 +30,8 @@ const ofBoth: [string, string][] = [
   ["Isovalue", "A threshold. Objects of high values consist of samples of at least it, objects of low values of samples of at most it."],
   [
     "Object of low values",
-    "A connected set of samples of at most the isovalue: lungs, pores, channels. It appears at its lowest value and grows with the isovalue." +
+    "A connected set of samples of at most the isovalue: lungs, pores, channels." +
+      " It appears at its lowest value and grows with the isovalue." +
       " It may reach the border of the volume; one that does not is a cavity of an object of high values.",
   ],
 ];

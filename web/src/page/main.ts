@@ -67,11 +67,13 @@ function verdict(page: Page): string[] {
     ];
   return others
     ? hiddenSentences(page)
-    : [...hiddenSentences(page), `${onlyLargest(page)}: the pictures show ${page.polarity === "both" ? "them" : "it"} at several isovalues.`];
+    : [...hiddenSentences(page), onlyLargest(page)];
 }
 
 function onlyLargest(page: Page): string {
-  return page.polarity === "both" ? "Only the largest objects of high and of low values are significant" : "Only the largest object is significant";
+  return page.polarity === "both"
+    ? "Only the largest objects of high and of low values are significant: the pictures show them at several isovalues."
+    : "Only the largest object is significant: the pictures show it at several isovalues.";
 }
 
 function hasCavities(page: Page): boolean {

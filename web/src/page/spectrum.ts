@@ -19,6 +19,8 @@ export function legend(lines: Line[]): HTMLElement {
 }
 
 interface Counted {
+  /** "all", "significant-low" */
+  key: string;
   name: string;
   of: Spectrum;
   counts: Counts;
@@ -28,13 +30,13 @@ interface Counted {
 function choicesOf(page: Page): Counted[] {
   const two = page.polarity === "both";
   return [
-    { of: page.spectrum, side: two ? " of high values" : "" },
-    { of: page.low?.spectrum ?? null, side: " of low values" },
-  ].flatMap(({ of, side }) => {
+    { of: page.spectrum, mark: "", side: two ? " of high values" : "" },
+    { of: page.low?.spectrum ?? null, mark: "-low", side: " of low values" },
+  ].flatMap(({ of, mark, side }) => {
     if (!of || of.edges.length < 2) return [];
     return [
-      { name: `all objects${side}`, of, counts: of.all },
-      { name: `significant objects${side}${two ? "" : " only"}`, of, counts: of.significant },
+      { key: `all${mark}`, name: `all objects${side}`, of, counts: of.all },
+      { key: `significant${mark}`, name: `significant objects${side}${two ? "" : " only"}`, of, counts: of.significant },
     ];
   });
 }
@@ -50,7 +52,7 @@ export function spectrum(page: Page): HTMLElement | null {
   const which = html(
     "select",
     { name: "counted" },
-    ...choices.map(({ name }, i) => html("option", { value: i }, name)),
+    ...choices.map(({ key, name }) => html("option", { value: key }, name)),
   );
   const at = html("input", {
     type: "range",
@@ -69,7 +71,8 @@ export function spectrum(page: Page): HTMLElement | null {
     "aria-label": "Counts over the isovalue, logarithmic",
   });
   const needle = svg("line", { class: "needle", y1: 8, y2: bottom });
-  const lines = (): Line[] => linesOf((choices[Number(which.value)] ?? first).counts);
+  const chosen = (): Counted => choices.find(({ key }) => key === which.value) ?? first;
+  const lines = (): Line[] => linesOf(chosen().counts);
   const draw = (): void => {
     drawing.replaceChildren(
       drawTicks(axis, bottom, width / 110),
@@ -96,7 +99,7 @@ export function spectrum(page: Page): HTMLElement | null {
   at.addEventListener("input", read);
   which.addEventListener("input", () => {
     const tau = data.edges[Number(at.value)] ?? page.axis.low;
-    data = (choices[Number(which.value)] ?? first).of;
+    data = chosen().of;
     at.max = String(data.edges.length - 2);
     at.value = String(columnAt(data.edges, tau));
     draw();

@@ -10,7 +10,10 @@ export const orders: [string, (page: Page, p: Entry, q: Entry) => number][] = [
   ["cavities", (_, p, q) => q.cavities - p.cavities],
 ];
 
-/** Entries of a page of both are in this order already. Objects and cavities by contrast x size, which both sides share; the object that never merges comes first. */
+/**
+ * Objects and cavities by contrast x size, which both sides share; the object that never merges comes first. Entries of a page of both
+ * are in order already.
+ */
 export function byRank(p: Branch, q: Branch): number {
   const size = (branch: Branch): number => (branch.merges === null ? Infinity : branch.hypervolume);
   return size(p) === size(q) ? 0 : size(q) > size(p) ? 1 : -1;

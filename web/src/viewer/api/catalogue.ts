@@ -1,5 +1,5 @@
-// All objects of a volume, including those without an entry on the page; of a page of both polarities those of high values. Each has a number like that of an entry:
-// the object of rank r without an entry has the number entries.length + r.
+// All objects of a volume, including those without an entry on the page; of a page of both polarities those of high
+// values. Each has a number like that of an entry: the object of rank r without an entry has the number entries.length + r.
 import { voxelWord } from "../../shared/names";
 import { entryOf, isLowOfBoth, type Branch, type Entry, type Page } from "../../shared/page";
 import { CHOICE, isChosen, type Choice, type Sizes } from "../state/selection";

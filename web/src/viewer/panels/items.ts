@@ -68,6 +68,7 @@ function cardLines(page: Page, i: number): string[] {
   const entry = entryOf(page, i);
   const reason = reasonOf(page, i);
   const shape = entry.tunnels + entry.cavities > 0 ? shapeOf(page, i) : "";
-  const parts = [volume(entry.measure, page.volume.unit), `${isovalueOf(page, i)}${reason ? ` (${reason})` : ""}`, shape, placeOf(page, i), entry.border ?? ""];
+  const isovalue = `${isovalueOf(page, i)}${reason ? ` (${reason})` : ""}`;
+  const parts = [volume(entry.measure, page.volume.unit), isovalue, shape, placeOf(page, i), entry.border ?? ""];
   return parts.filter((part) => part !== "");
 }
