@@ -256,7 +256,8 @@ CardSubject Service::card_subject(QueryParameters& words, const StoreCatalogue& 
         const Polarity polarity = polarity_of(atlas.info());
         PageEntry drawn = branch_entry(atlas, known.of(polarity).hierarchy, *branch);
         drawn.colour = palette(*branch);
-        return {std::string(name_of(polarity)) + " branch " + std::to_string(*branch), false, polarity, std::move(drawn)};
+        const std::string side = polarity == polarity_of(store_state_.sides().main.info()) ? "" : "low ";
+        return {side + "branch " + std::to_string(*branch), false, polarity, std::move(drawn)};
     }
     const std::vector<PageEntry>& entries = known.contents.entries;
     if (*entry >= std::ssize(entries)) {

@@ -76,7 +76,7 @@ TEST_F(BuildStates, OfBothPolaritiesAreNumberedThrough) {
         EXPECT_EQ(progress.phase_count, 14);
         if (phases.empty() || phases.back() != progress.phase_index) phases.push_back(progress.phase_index);
     };
-    build_atlas(path_, make_phantom("demo", {.size = 24}), {}, context, PolarityChoice::both);
+    build_atlas(path_, make_phantom("demo", {.size = 32}), {}, context, PolarityChoice::both);
     EXPECT_TRUE(std::ranges::is_sorted(phases));
     EXPECT_EQ(phases.back(), 13);
 }

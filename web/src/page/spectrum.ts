@@ -98,10 +98,12 @@ export function spectrum(page: Page): HTMLElement | null {
   });
   at.addEventListener("input", read);
   which.addEventListener("input", () => {
-    const tau = data.edges[Number(at.value)] ?? page.axis.low;
-    data = chosen().of;
-    at.max = String(data.edges.length - 2);
-    at.value = String(columnAt(data.edges, tau));
+    if (data !== chosen().of) {
+      const tau = data.edges[Number(at.value) + 1] ?? page.axis.low;
+      data = chosen().of;
+      at.max = String(data.edges.length - 2);
+      at.value = String(columnAt(data.edges, tau));
+    }
     draw();
     read();
   });
