@@ -88,6 +88,34 @@ class Polarity(harness.CliTest):
             self.run_ok("extract", "v.nrrd", "--polarity", "low", "--tau", "100", "-o", name)
             self.assertRegex((self.folder / name).read_bytes(), rb"(?i)polarity")
 
+    def test_measures_have_the_values_of_the_file(self):
+        for more, minus_more in ((["--tau", "100"], ["--tau", "-100"]), ([], [])):
+            minus = self.run_json("measure", "minus.nrrd", *minus_more)
+            for document in self.low("measure", "v.nrrd", *more):
+                self.assert_schema(document, "measure")
+                self.assertEqual(len(document["objects"]), len(minus["objects"]))
+                for own, other in zip(document["objects"], minus["objects"]):
+                    for name in ("id", "voxels", "voxel_volume", "euler", "tunnels", "cavities", "touches_border", "centroid", "axes"):
+                        self.assertEqual(own[name], other[name], name)
+                    for name in ("volume", "area", "sphericity", "equivalent_diameter"):
+                        self.assertAlmostEqual(own[name], other[name], delta=1e-9 * other[name])
+                    values, mirrored = own["values"], other["values"]
+                    self.assertAlmostEqual(values["mean"], -mirrored["mean"], delta=1e-9)
+                    self.assertEqual((values["min"], values["max"]), (-mirrored["max"], -mirrored["min"]))
+                    self.assertEqual(values["sum"], -mirrored["sum"])
+                    self.assertAlmostEqual(own["tau"], -other["tau"])
+                    self.assertLessEqual(values["max"], own["tau"])
+                for axis in range(3):   # of the file's values: high is high
+                    self.assertAlmostEqual(document["percolation"]["high"][axis], -minus["percolation"]["low"][axis], delta=1e-9)
+                    self.assertAlmostEqual(document["percolation"]["low"][axis], -minus["percolation"]["high"][axis], delta=1e-9)
+            self.assertEqual(self.run_json("measure", "v.nrrd", *more)["porosity"]["below"], document["porosity"]["below"])
+        self.run_ok("measure", "both.atlas", "--polarity", "low", "--tau", "100", "-o", "low.csv")
+        rows = (self.folder / "low.csv").read_text().splitlines()
+        self.assertTrue(rows[0].endswith(",polarity") and all(row.endswith(",low") for row in rows[1:]) and len(rows) == 4, rows)
+        text = self.run_ok("measure", "v.nrrd", "--polarity", "low", "--top", "3").stdout
+        self.assertIn("reaches the border", text)
+        self.assertEqual(text.count("reaches the border, reaches"), 0)
+
     def test_every_best_isovalue_reads_back(self):
         for document in self.low("objects", "v.nrrd", "--all"):
             for o in document["objects"]:
