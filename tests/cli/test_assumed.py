@@ -163,6 +163,19 @@ class Assumed(CliTest):
         self.assertIn("look like labels", self.run_ok("tree", "labels.npy").stderr)
         self.assertTrue(self.run_json("info", "labels.npy")["survey"]["labels"])
 
+    def test_labels_in_pictures(self):
+        def drawn(*more):
+            document = self.run_json("render", "labels.npy", "--size", "32x32", "--samples", "1", "-o", "labels.png", *more)
+            self.assert_schema(document, "render")
+            return [o["name"] for o in document["objects"]]
+
+        self.assertEqual(drawn(), ["label 3", "label 7", "label 9"])
+        self.assertEqual(drawn("--object", "9", "3"), ["label 9", "label 3"])
+        self.assertEqual(drawn("--top", "1"), ["label 3"])
+        self.assertEqual(drawn("--tau", "5"), ["isovalue 5"])
+        self.assertNotIn("label 3", drawn("--labels", "no"))
+        self.run_error(6, "render", "labels.npy", "--object", "8", "-o", "none.png", says="label 8")
+
     def test_labels_of_a_store(self):
         self.run_ok("build", "labels.npy", "-o", "labels.atlas")
         self.assertEqual(self.run_json("objects", "labels.atlas", "--labels", "yes")["labels"], self.run_json("objects", "labels.npy")["labels"])

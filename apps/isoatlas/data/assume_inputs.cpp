@@ -70,10 +70,10 @@ void take_labels(Arguments& arguments, const SampleSurvey& survey) {
     inputs.are_labels = true;
     const std::string why = fmt::format("the samples look like labels ({} whole numbers, {} of the neighbours are equal)", survey.values,
                                         percent(survey.likeness.equal));
-    if (arguments.verb == "objects" || arguments.verb == "extract") {
+    if (arguments.verb == "objects" || arguments.verb == "extract" || arguments.verb == "render") {
         const bool has_isovalue = arguments.tau || arguments.best || arguments.cavities || arguments.both || arguments.selects ||
                                   arguments.all || !arguments.curve.empty() || arguments.is_low() ||
-                                  arguments.polarity == PolarityChoice::both;
+                                  arguments.polarity == PolarityChoice::both || shows_isovalues(arguments.picture);
         inputs.are_labels = !has_isovalue;
         inputs.assumed.push_back(
             why + (has_isovalue

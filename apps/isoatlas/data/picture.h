@@ -89,6 +89,9 @@ void convert_picture(const PictureWords& words, PictureArguments& picture);
 /// The unit of length of the file, for the scale bar.
 [[nodiscard]] std::string length_unit(const VolumeInfo& info);
 
+/// Does the picture show isovalues, and not the labels of a label volume?
+[[nodiscard]] bool shows_isovalues(const PictureArguments& picture);
+
 /// The scene of the arguments, without the cut. Throws Error: usage, not_found.
 class Sides;
 struct Arguments;

@@ -26,6 +26,7 @@ struct Wanted {
     std::vector<std::int64_t> contours{};
     ShellChoice shell = ShellChoice::all;
     Polarity polarity = Polarity::high;
+    std::optional<std::int64_t> label{};  ///< of a label volume; then nothing of the above but the name
 };
 
 Wanted wanted_object(const ChosenObject& object, ShownPart part = ShownPart::object) {
@@ -55,7 +56,34 @@ void add_shown(const Arguments& arguments, Sides& sides, std::vector<Wanted>& wa
     }
 }
 
+/// As typed, or all labels.
+std::vector<Wanted> wanted_labels(const Arguments& arguments, Source& source) {
+    std::vector<Wanted> wanted;
+    const auto add = [&](std::int64_t label) { wanted.push_back({.name = fmt::format("label {}", label), .label = label}); };
+    for (const ShownObject& shown : arguments.picture.objects) add(shown.reference.number);
+    if (!wanted.empty()) return wanted;
+    const LabelTable table = list_labels(source.volume(), {.interpolant = source.interpolant()}, source.context());
+    for (const LabelRegion& region : table.regions) {
+        if (arguments.top == 0 || std::ssize(wanted) < arguments.top) add(region.label);
+    }
+    if (wanted.empty()) nothing_there(arguments, "there is no label but the background");
+    return wanted;
+}
+
+Surface surface_of(Sides& sides, const Wanted& wanted) {
+    Source& source = sides.source(wanted.polarity);
+    SurfaceOptions options;
+    options.objects = wanted.objects;
+    options.contours = wanted.contours;
+    options.shell = wanted.shell;
+    options.ids = false;
+    if (!wanted.label) return source.extract(wanted.tau, options);
+    return extract_label(source.volume(), *wanted.label, {.interpolant = source.interpolant(), .surface = options}, source.context());
+}
+
 std::vector<Wanted> wanted_of(const Arguments& arguments, Sides& sides) {
+    const bool of_labels = arguments.verb == "render" && arguments.inputs.are_labels && !shows_isovalues(arguments.picture);
+    if (of_labels) return wanted_labels(arguments, sides.main());
     std::vector<Wanted> wanted;
     for (const double tau : arguments.picture.taus) {
         const double stored = sides.main().stored(tau);
@@ -187,6 +215,13 @@ void add_samples(const Arguments& arguments, Source& source, Scene& scene) {
 
 }  // namespace
 
+bool shows_isovalues(const PictureArguments& picture) {
+    const auto is_no_label = [](const ShownObject& shown) {
+        return shown.part != ShownPart::object || shown.reference.tau || shown.reference.kind != ObjectReference::Kind::number;
+    };
+    return !picture.taus.empty() || picture.volume || !picture.slices.empty() || std::ranges::any_of(picture.objects, is_no_label);
+}
+
 RenderOptions options_of_picture(const PictureArguments& picture) {
     RenderOptions options{.width = picture.width, .height = picture.height};
     options.projection = picture.perspective ? Projection::perspective : Projection::orthographic;
@@ -210,15 +245,12 @@ Scene scene_of(const Arguments& arguments, Sides& sides) {
     const std::vector<Wanted> all = wanted_of(arguments, sides);
     if (!picture.volume) sides.release_trees();
     for (const Wanted& wanted : all) {
-        SurfaceOptions options;
-        options.objects = wanted.objects;
-        options.contours = wanted.contours;
-        options.shell = wanted.shell;
-        options.ids = false;
-        Surface surface = sides.source(wanted.polarity).extract(wanted.tau, options);
+        Surface surface = surface_of(sides, wanted);
         if (surface.triangles.empty()) nothing_there(arguments, "there is no surface: " + wanted.name);
         const std::size_t i = scene.objects.size();
-        const Colour colour = i < picture.colours.size() ? picture.colours[i] : palette(static_cast<std::int64_t>(i));
+        const Colour colour = i < picture.colours.size() ? picture.colours[i]
+                              : wanted.label             ? colour_of_object(*wanted.label)
+                                                         : palette(static_cast<std::int64_t>(i));
         scene.objects.push_back({.surface = std::move(surface), .colour = colour, .opacity = 1, .name = wanted.name});
     }
     choose_opacities(picture, scene.objects);
