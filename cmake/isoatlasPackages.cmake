@@ -39,6 +39,7 @@ macro(isoatlas_find_packages library)
     isoatlas_import(deflate libdeflate.h deflate)
   elseif("${library}" STREQUAL measures)
     isoatlas_import(qhull libqhull_r/qhull_ra.h qhull_r)
+    isoatlas_import(embree embree3/rtcore.h embree3)
   elseif("${library}" STREQUAL render)
     isoatlas_import(embree embree3/rtcore.h embree3)  # its own package file has to be told where TBB is
     isoatlas_import(webp webp/decode.h webp)

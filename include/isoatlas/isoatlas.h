@@ -61,6 +61,7 @@
 #include "isoatlas/surface.h"
 #include "isoatlas/survey.h"
 #include "isoatlas/text.h"
+#include "isoatlas/thickness.h"
 #include "isoatlas/units.h"
 #include "isoatlas/verify.h"
 #include "isoatlas/version.h"

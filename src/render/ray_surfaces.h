@@ -1,4 +1,4 @@
-// Ray tracing of surfaces: the only code that uses Embree. Coordinates are those of the frame: the scene in the unit ball.
+// Ray tracing of surfaces: Coordinates are those of the frame: the scene in the unit ball.
 #pragma once
 
 #include <memory>

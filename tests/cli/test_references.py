@@ -158,6 +158,22 @@ class References(harness.CliTest):
         for words in (["--boundary", "open"], ["--shell", "inner"]):
             self.run_error(2, "extract", "demo.nrrd", "--object", "2", "--for-print", *words, "-o", "x.stl", says="--for-print")
 
+    def test_walls_for_print(self):
+        thick = self.extracted("--object", "5", "--for-print", "-o", "print.stl")
+        walls = thick["print"]["walls"]
+        self.assertEqual((walls["limit"], walls["thin_part"], thick["warnings"]), (0.8, 0, [w for w in thick["warnings"] if "STL" in w]))
+        self.assertLess(walls["min"], walls["median"])
+        done = self.run_ok("extract", "demo.nrrd", "--object", "5", "--for-print", "--min-wall", "1000", "-o", "print.stl")
+        self.assertIn("walls: ", done.stdout)
+        self.assertIn("100 % of them under 1000 mm", done.stdout)
+        self.assertIn("thinner than", done.stderr)
+        several = self.extracted("--object", "4", "5", "--for-print", "--min-wall", "3", "-o", "print.ply")["print"]["walls"]
+        alone = [self.extracted("--object", n, "--for-print", "-o", "print.ply")["print"]["walls"] for n in ("4", "5")]
+        self.assertEqual(several["min"], min(one["min"] for one in alone))
+        self.assertEqual(several["median"], min(one["median"] for one in alone))
+        self.run_error(2, "extract", "demo.nrrd", "--object", "2", "--min-wall", "1", "-o", "x.stl", says="--min-wall")
+        self.run_error(2, "extract", "demo.nrrd", "--object", "2", "--for-print", "--min-wall", "-1", "-o", "x.stl", says="--min-wall")
+
     # labels
 
     def test_labels_of_the_table(self):

@@ -67,6 +67,7 @@ struct Arguments {
     bool exact = false;                          ///< handles: exact pairs
     bool no_percolation = false;                 ///< measure: leave it out
     bool split = false, for_print = false;       ///< extract
+    std::optional<double> min_wall;              ///< extract --for-print: millimetres
     std::vector<ObjectReference> removed_names;  ///< name
     bool best = false, all = false, zones = false, list = false, cavities = false, both = false;
     std::int64_t top = 0;  ///< 0: not given

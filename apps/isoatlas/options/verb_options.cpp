@@ -73,7 +73,11 @@ void extract_options(CLI::App& app, Arguments& arguments, Typed& typed) {
         ->check(in_range(1, 1000))
         ->type_name("N");
     app.add_flag("--split", arguments.split, "One file for each object, with its number and name behind that of FILE");
-    app.add_flag("--for-print", arguments.for_print, "For a 3D printer: outer shells alone, in mm, without specks");
+    app.add_flag("--for-print", arguments.for_print,
+                 "For a 3D printer: outer shells alone, in mm, without specks; says how thick walls are");
+    add_number(app, "--min-wall", arguments.min_wall, "With --for-print: warn of walls thinner than this (0.8)")
+        ->check(in_range(0.0, 1e6))
+        ->type_name("MM");
     app.add_option("--shell", typed.shell, "outer: outer shells, inner: walls of cavities, all")->type_name("WHICH");
     app.add_option("--style", typed.style, "compact: fewer triangles, full: an articulation point in every hit set")->type_name("STYLE");
     app.add_option("--boundary", typed.boundary, "closed: caps at the border of the volume, open: no caps")->type_name("RULE");

@@ -34,6 +34,8 @@ void check_extract_arguments(const Arguments& arguments) {
         throw Error(ErrorKind::usage, {.what = "--for-print and --boundary open contradict each other", .next = "omit one of them"});
     if (arguments.for_print && arguments.shell == ShellChoice::inner)
         throw Error(ErrorKind::usage, {.what = "--for-print and --shell inner contradict each other", .next = "omit one of them"});
+    if (arguments.min_wall && !arguments.for_print)
+        throw Error(ErrorKind::usage, {.what = "--min-wall is a limit of what --for-print says", .next = "add --for-print, or omit it"});
     if (arguments.split && !chooses && !has_contours)
         throw Error(ErrorKind::usage, {.what = "--split writes a file for each chosen object", .next = "add --top N or --object REF"});
     check_output(arguments, {".ply", ".stl", ".obj", ".vtp", ".glb"});
@@ -123,7 +125,7 @@ struct Written {
         std::string output;
     };
     std::vector<Part> parts{};
-    std::optional<PrintReport> print{};
+    std::optional<Printing> print{};
 };
 
 Json part_json(const Written::Part& part) {
@@ -200,9 +202,9 @@ Written write_one(const Arguments& arguments, Source& source, const std::vector<
     for (const ChosenObject& object : chosen) (object.is_contour ? options.contours : options.objects).push_back(object.voxel);
     Surface surface = source.extract(chosen.empty() ? source.tau() : chosen[0].tau, options);
     if (surface.points.empty()) nothing_written(arguments);
-    std::optional<PrintReport> print;
+    std::optional<Printing> print;
     std::vector<std::string> notes;
-    if (arguments.for_print) print_surface(surface, print.emplace(), notes);
+    if (arguments.for_print) print_surface(surface, print.emplace(printing_of(arguments)), notes, source.context());
     Written written{.tau = surface.tau, .reported_tau = surface.reported_tau, .space = surface.space, .unit = surface.unit};
     written.print = print, written.notes = std::move(notes);
     written.counts = count(surface);
@@ -227,9 +229,9 @@ Written write_several(const Arguments& arguments, Sides& sides, const std::vecto
             if (std::ranges::find(written.warnings, warning) == written.warnings.end()) written.warnings.push_back(warning);
         }
     };
-    if (arguments.for_print) written.print.emplace();
+    if (arguments.for_print) written.print = printing_of(arguments);
     for (ChosenSurface& one : surfaces) {
-        if (written.print) print_surface(one.named.surface, *written.print, written.notes);
+        if (written.print) print_surface(one.named.surface, *written.print, written.notes, source.context());
         const std::string output = arguments.split ? split_name(arguments.output, one.object) : arguments.output;
         const Counts counts = count(one.named.surface);
         written.counts += counts;
@@ -262,6 +264,7 @@ int run_extract(const Arguments& arguments, Terminal& terminal) {
     Written written = is_one_surface(arguments, chosen) ? write_one(arguments, first, chosen) : write_several(arguments, sides, chosen);
     if (arguments.space && space_in_file(arguments.output, written.space) == "glTF")
         written.warnings.emplace_back("--space does not apply to .glb, which has metres and y up");
+    if (written.print && !thin_walls_text(*written.print).empty()) written.warnings.push_back(thin_walls_text(*written.print));
     for (const std::string& warning : written.warnings) terminal.warn(warning);
     for (const std::string& note : written.notes) terminal.say("note: " + note);
     if (arguments.json) {
