@@ -7,7 +7,7 @@ SHELL := /bin/bash
 .DEFAULT_GOAL := help
 export VOLUME ARGS PREFIX SECONDS_PER_TARGET
 
-.PHONY: help demo quick test check build install format lint bench memory table131 fuzz asan tsan coverage clean
+.PHONY: help demo quick test check build install format lint bench memory studies table131 fuzz asan tsan coverage clean
 
 help: ## this list
 	@awk -F ':.*## ' '/^[a-z0-9]+:.*## / { printf "  make %-10s %s\n", $$1, $$2 }' Makefile
@@ -43,6 +43,9 @@ bench: ## measure: analysis against a sort, surfaces and stores against Flying E
 memory: build ## does --memory hold? volumes of all kinds, sizes and budgets; writes docs/memory.md
 	@mkdir -p build/bench
 	@/usr/bin/python3 bench/memory/matrix.py build/release/bin/isoatlas -o build/bench/memory.json --page docs/memory.md
+
+studies: build ## run the commands of docs/studies on the volumes of ../shared/data and remake their pictures
+	@for page in docs/studies/[a-z]*.md; do ISOATLAS_CLI=$$PWD/build/release/bin/isoatlas python3 -B tests/docs/blocks.py pictures $$page; done
 
 table131: build ## the dissertation's table 13.1 beside ours; writes docs/performance.md
 	@python3 bench/table131.py build/release/bin/isoatlas ../shared/data

@@ -124,9 +124,10 @@ Letter next_letter(const std::string& text, std::size_t& i) {
     if (first >= 32 && first < 127) return {kLetters[first - 32], false};
     std::string_view rest(text.data() + i - 1, text.size() - i + 1);
     while (i < text.size() && (static_cast<unsigned char>(text[i]) & 0xC0) == 0x80) ++i;
-    if (rest.starts_with("\xC2\xB5") || rest.starts_with("\xCE\xBC")) return {"0704023234 3732 0700", false};  // micro
-    if (rest.starts_with("\xC2\xB0")) return {"1908061727 1919", false};                                       // degree
-    if (rest.starts_with("\xC3\x97")) return {"0337 0733", false};                                             // times
+    if (rest.starts_with("\xC2\xB5") || rest.starts_with("\xCE\xBC")) return {"0704023234 3732 0700", false};           // micro
+    if (rest.starts_with("\xC2\xB0")) return {"1908061727 1919", false};                                                // degree
+    if (rest.starts_with("\xC3\x97")) return {"0337 0733", false};                                                      // times
+    if (rest.starts_with("\xC3\x85") || rest.starts_with("\xE2\x84\xAB")) return {"0227 2742 1434 2918273829", false};  // angstrom
     return {kUnknown, false};
 }
 

@@ -5,10 +5,14 @@
     <!-- run with h5py -->  before ```python: run in the same folder; left out, and said so, where h5py is not installed
     <!-- prints -->    before ```text: exactly what the block before it printed on standard output
     <!-- program -->   before ```cpp:  printed by `blocks.py program FILE`
+    <!-- data lung_ct/lung_hi.nrrd -->  anywhere: this file of ../shared/data lies in the folder. Without the data, nothing of the file runs
+
+`blocks.py pictures FILE` runs them too, and copies the pictures that the file shows from that folder to beside it.
 """
 import os
 import pathlib
 import re
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -16,6 +20,9 @@ import tempfile
 MARK = r"<!-- (run with h5py|run as python|run|prints|program) -->"
 BLOCK = re.compile(MARK + r"\n+```(\w+)\n(.*?)^```$", re.S | re.M)
 LANGUAGE = {"run": "sh", "run as python": "python", "run with h5py": "python", "prints": "text", "program": "cpp"}
+DATA = re.compile(r"^<!-- data ([\w./-]+) -->$", re.M)
+PICTURE = re.compile(r"!\[[^\]]*\]\(([\w-]+\.\w+)\)")
+SHARED = pathlib.Path(__file__).resolve().parents[3] / "shared" / "data"
 PYTHON = "/usr/bin/python3"   # the one that Debian's packages are for
 
 
@@ -44,15 +51,18 @@ def start(mark, body, folder, environment):
     return done.stdout
 
 
-def run(text):
-    """Returns the number of blocks run; raises AssertionError with what went wrong."""
+def run(text, pictures=None):
+    """Returns the number of blocks run; raises AssertionError with what went wrong. pictures: the folder that they are copied to."""
     count, printed = 0, None
+    data = [SHARED / name for name in DATA.findall(text)]
     with tempfile.TemporaryDirectory(prefix="isoatlas-docs-") as folder:
         bin_folder = pathlib.Path(folder, "bin")
         work = pathlib.Path(folder, "work")
         bin_folder.mkdir()
         work.mkdir()
         (bin_folder / "isoatlas").symlink_to(os.environ["ISOATLAS_CLI"])
+        for file in data:
+            (work / file.name).symlink_to(file)
         environment = dict(os.environ, PATH=f"{bin_folder}:{os.environ['PATH']}")
         for mark, _, body in blocks_of(text):
             if mark.startswith("run"):
@@ -60,6 +70,8 @@ def run(text):
                 count += 1
             elif mark == "prints" and printed is not None:
                 assert printed == body, f"the document shows\n{body}\nbut the command prints\n{printed}"
+        for name in PICTURE.findall(text) if pictures else []:
+            shutil.copyfile(work / name, pathlib.Path(pictures, name))
     return count
 
 
@@ -74,6 +86,10 @@ def self_test():
         except AssertionError:
             continue
         raise SystemExit(f"nothing noticed in\n{bad}")
+    with tempfile.NamedTemporaryFile("w", suffix=".md") as page:   # nothing of it runs where a volume is missing
+        page.write("<!-- data none/of/this.nrrd -->\n" + good.replace("cat x", "false"))
+        page.flush()
+        main("run", page.name)
 
 
 def main(action, *files):
@@ -87,8 +103,12 @@ def main(action, *files):
             raise SystemExit(f"{files[0]}: {len(programs)} programs, expected one")
         print(programs[0], end="")
         return
+    missing = [name for name in DATA.findall(text) if not (SHARED / name).exists()]
+    if missing and action == "run":
+        print(f"{files[0]}: left out, there is no {SHARED / missing[0]}")
+        return
     try:
-        count = run(text)
+        count = run(text, pathlib.Path(files[0]).resolve().parent if action == "pictures" else None)
     except AssertionError as problem:
         raise SystemExit(f"{files[0]}: {problem}")
     if count == 0:
