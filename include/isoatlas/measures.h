@@ -7,6 +7,7 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <string>
 #include <vector>
@@ -48,6 +49,12 @@ struct FeretDiameters {
     Vec3 max_direction{}, min_direction{};
 };
 
+/// How thick an object is, at the thinnest and at the median by area (docs/measures.md#wall-thickness). Not a number: not measured, or no
+/// part of its surface is a wall.
+struct ObjectThickness {
+    double min = std::numeric_limits<double>::quiet_NaN(), median = std::numeric_limits<double>::quiet_NaN();
+};
+
 /// One object at one isovalue.
 struct ObjectMeasures {
     std::int64_t id = -1;  ///< index of its highest voxel, as in Cut
@@ -64,6 +71,7 @@ struct ObjectMeasures {
     OrientedBox box;
     std::array<Vec3, 2> bounds{};  ///< lowest and highest coordinates of its surface
     FeretDiameters feret;
+    ObjectThickness thickness;
     std::int64_t euler = 1, tunnels = 0, cavities = 0;  ///< euler = 1 - tunnels + cavities; 2D: tunnels are holes
     std::int64_t facets = 0;                            ///< triangles of its surface; 2D: segments
     bool touches_border = false;                        ///< the volume ends before it does: sizes are those of the part inside
@@ -73,12 +81,14 @@ struct MeasureOptions {
     Interpolant interpolant = Interpolant::trilinear;
     double tunnel_height = 0;             ///< trilinear: tunnels of at most this height (difference of stored values) are left out
     std::vector<std::int64_t> objects{};  ///< voxel indices: the objects at tau that contain them; empty: all
+    bool thickness = false;               ///< ObjectMeasures::thickness, too; 3D only. Cost: seven rays for each point of the surface
 };
 
 /// Of a store, which has the interpolant that it was built with.
 struct AtlasMeasureOptions {
     std::vector<std::int64_t> objects{};  ///< as above
     std::int64_t max_triangles = 0;       ///< of SurfaceOptions
+    bool thickness = false;               ///< as above
 };
 
 /// The objects at an isovalue, by descending voxels, then ascending id. Throws Error: not_found for a voxel of no object, usage (tau is not

@@ -10,6 +10,7 @@
 #include "isoatlas/measures.h"
 #include "levelset/components.h"
 #include "levelset/high_bits.h"
+#include "measures/object_walls.h"
 #include "measures/surface_parts.h"
 #include "measures/voxel_sums.h"
 
@@ -25,13 +26,15 @@ SurfaceOptions surface_of(const std::vector<std::int64_t>& objects, std::int64_t
     return options;
 }
 
-std::vector<ObjectMeasures> measured(const Surface& surface, const VolumeInfo& info, const MeasuredVoxels& sums, const Context& context) {
+std::vector<ObjectMeasures> measured(const Surface& surface, const VolumeInfo& info, const MeasuredVoxels& sums, bool thickness,
+                                     const Context& context) {
     std::vector<ObjectMeasures> objects(sums.size());
     for (std::size_t i = 0; i < objects.size(); ++i) {
         sums.describe(i, objects[i]);
         objects[i].tau = surface.tau;
     }
     measure_surface(surface, info, objects, context);
+    if (thickness && info.extent.rank == 3) measure_walls(surface, objects, context);
     std::ranges::sort(
         objects, [](const ObjectMeasures& a, const ObjectMeasures& b) { return a.voxels != b.voxels ? a.voxels > b.voxels : a.id < b.id; });
     return objects;
@@ -66,7 +69,7 @@ std::vector<ObjectMeasures> measure_objects(const Volume& volume, double tau, co
     MeasuredVoxels sums(volume.info, components, options.objects);
     const Extent& extent = volume.info.extent;
     sums.add(volume.bytes, {{0, 0, 0}, extent.size}, context);
-    return measured(surface, volume.info, sums, context);
+    return measured(surface, volume.info, sums, options.thickness, context);
 }
 
 std::vector<ObjectMeasures> measure_objects(const Atlas& atlas, double tau, const AtlasMeasureOptions& options, const Context& context,
@@ -82,7 +85,7 @@ std::vector<ObjectMeasures> measure_objects(const Atlas& atlas, double tau, cons
         MeasuredVoxels sums(info, components, objects, origin);
         add_samples(samples, info, sums, context, spent);
         AtlasAccess::count(atlas, spent, 0, cost);
-        return measured(surface, info, sums, context);
+        return measured(surface, info, sums, options.thickness, context);
     };
     if (objects.size() == 1) {  // from its own part of the store, unless that is most of it
         const std::optional<StoredWindow> window = window_of_object(samples, objects[0], tau, tunnel_height, context, spent);

@@ -15,7 +15,7 @@ constexpr const char* kColumns =
     "centroid_z,axis_1,axis_2,axis_3,axis_1_x,axis_1_y,axis_1_z,axis_2_x,axis_2_y,axis_2_z,axis_3_x,axis_3_y,axis_3_z,box_1,box_2,box_3,"
     "box_x,box_y,box_z,low_x,low_y,low_z,high_x,high_y,high_z,feret_max,feret_min,feret_mean,feret_max_x,feret_max_y,feret_max_z,feret_min_"
     "x,feret_min_y,feret_min_z,euler,"
-    "tunnels,cavities,touches_border,unit,value_unit";
+    "tunnels,cavities,touches_border,thickness_min,thickness_median,unit,value_unit";
 
 /// A text of a header in quotes.
 std::string quoted(const std::string& given) {
@@ -61,6 +61,7 @@ void put(ByteWriter& out, const VolumeInfo& info, std::int64_t number, const Obj
     line.real(object.feret.max).real(object.feret.min).real(object.feret.mean);
     line.vector(object.feret.max_direction).vector(object.feret.min_direction);
     line.count(object.euler).count(object.tunnels).count(object.cavities).count(object.touches_border ? 1 : 0);
+    line.real(object.thickness.min).real(object.thickness.median);
 }
 
 std::string checked_extension(const std::string& path) {

@@ -2,6 +2,8 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <unordered_map>
+#include <utility>
 
 #include "base/cancel.h"
 #include "base/memory_limit.h"
@@ -9,13 +11,14 @@
 #include "base/streamed.h"
 #include "isoatlas/environment.h"
 #include "isoatlas/thickness.h"
+#include "measures/object_walls.h"
 #include "measures/solid_rays.h"
 #include "measures/vectors.h"
 
 namespace isoatlas {
 namespace {
 
-constexpr std::int64_t kBlock = 4096;  // points
+constexpr std::int64_t kPointsTogether = 4096;  // points
 constexpr int kAround = 6;
 constexpr double kTilt = 15 * std::numbers::pi / 180;  // of the rays around the normal
 constexpr double kOpposite = std::numbers::sqrt2 / 2;  // a ray leaves within 45 degrees of the normal there
@@ -93,7 +96,7 @@ Wall wall_at(const Surface& surface, const std::array<std::int64_t, 3>& corners,
     return {largest, static_cast<float>(norm(area_normal(surface, corners)))};
 }
 
-WallThickness summary(std::vector<Wall>& walls, double limit) {
+WallThickness summary(std::vector<Wall> walls, double limit) {
     WallThickness result;
     result.triangles = std::ssize(walls);
     if (walls.empty()) return result;
@@ -109,31 +112,55 @@ WallThickness summary(std::vector<Wall>& walls, double limit) {
     return result;
 }
 
-}  // namespace
-
-WallThickness wall_thickness(const Surface& surface, const WallOptions& options, const Context& context) {
-    const EnvironmentScope scope(context);
-    check(surface);
-    if (surface.triangles.empty()) return {};
+/// Thickness behind every point; kNoWall: none.
+Array<float> thickness_of_points(const Surface& surface, const Context& context) {
     const Array<std::array<float, 3>> normals = outward_normals(surface);
     const SolidRays rays(surface, context);
     const std::int64_t points = std::ssize(surface.points);
     Array<float> thickness(surface.points.size());
     const CallerLooks look(context);
-    for_each_block(context.threads, (points + kBlock - 1) / kBlock, [&](std::int64_t block) {
+    for_each_block(context.threads, (points + kPointsTogether - 1) / kPointsTogether, [&](std::int64_t block) {
         look();
-        for (std::int64_t i = block * kBlock; i < std::min(points, (block + 1) * kBlock); ++i) {
+        for (std::int64_t i = block * kPointsTogether; i < std::min(points, (block + 1) * kPointsTogether); ++i) {
             const auto point = static_cast<std::size_t>(i);
             const Vec3 outwards{normals[point][0], normals[point][1], normals[point][2]};
             thickness[point] = norm(outwards) > 0 ? thickness_at(rays, point, unit(outwards)) : kNoWall;
         }
     });
-    std::vector<Wall> walls;
+    return thickness;
+}
+
+/// Of each of some parts of the surface; part_of: that of a point.
+template <class PartOf>
+std::vector<std::vector<Wall>> walls_of_parts(const Surface& surface, std::size_t parts, const PartOf& part_of, const Context& context) {
+    check(surface);
+    std::vector<std::vector<Wall>> walls(parts);
+    if (surface.triangles.empty()) return walls;
+    const Array<float> thickness = thickness_of_points(surface, context);
     for (const std::size_t i : streamed(surface.triangles.size(), at_random())) {
         const Wall wall = wall_at(surface, surface.triangles[i], thickness);
-        if (wall.thickness != kNoWall) walls.push_back(wall);
+        if (wall.thickness != kNoWall) walls[part_of(static_cast<std::size_t>(surface.triangles[i][0]))].push_back(wall);
     }
-    return summary(walls, options.limit);
+    return walls;
+}
+
+}  // namespace
+
+WallThickness wall_thickness(const Surface& surface, const WallOptions& options, const Context& context) {
+    const EnvironmentScope scope(context);
+    return summary(walls_of_parts(surface, 1, [](std::size_t) { return std::size_t{0}; }, context)[0], options.limit);
+}
+
+void measure_walls(const Surface& surface, std::span<ObjectMeasures> objects, const Context& context) {
+    std::unordered_map<std::int64_t, std::size_t> position;
+    for (std::size_t i = 0; i < objects.size(); ++i) position.emplace(objects[i].id, i);
+    const auto part_of = [&](std::size_t point) { return position.at(surface.object[point]); };
+    std::vector<std::vector<Wall>> walls = walls_of_parts(surface, objects.size(), part_of, context);
+    for (std::size_t i = 0; i < objects.size(); ++i) {
+        if (walls[i].empty()) continue;
+        const WallThickness thickness = summary(std::move(walls[i]), 0);
+        objects[i].thickness = {thickness.min, thickness.median};
+    }
 }
 
 }  // namespace isoatlas

@@ -122,6 +122,18 @@ class Measure(harness.CliTest):
                                   ("centroid_z", one["centroid"][2]), ("box_3", one["box"]["size"][2]), ("high_y", one["bounds"][1][1])):
                 self.assertEqual(float(row[column]), value)
 
+    def test_thickness(self):
+        self.assertTrue(all(one["thickness"] is None for one in self.document("demo.nrrd")["objects"]))
+        measured = self.document("demo.nrrd", "--thickness")["objects"]
+        for one in measured:
+            self.assertLessEqual(one["thickness"]["min"], one["thickness"]["median"])
+            self.assertLess(one["thickness"]["median"], one["feret"]["max"])
+        self.assertIn("thickness [mm]", self.run_ok("measure", "demo.nrrd", "--thickness", "--no-percolation").stdout)
+        self.run_ok("measure", "demo.nrrd", "--thickness", "--no-percolation", "-o", "walls.csv")
+        with open(self.folder / "walls.csv", newline="") as file:
+            for row, one in zip(csv.DictReader(file), measured, strict=True):
+                self.assertEqual((float(row["thickness_min"]), float(row["thickness_median"])), tuple(one["thickness"].values()))
+
     def test_refusals(self):
         self.run_error(2, "measure", "demo.nrrd", "-o", "x.txt", next_says="format follows the name")
         self.run_error(2, "measure", "demo.nrrd", "--tau", "100", "--keep", "3")

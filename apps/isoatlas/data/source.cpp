@@ -144,8 +144,12 @@ Spectrum Source::spectrum(const SpectrumOptions& options) {
 }
 
 std::vector<ObjectMeasures> Source::measure(double tau, const std::vector<std::int64_t>& objects) {
-    if (atlas_ && !arguments_.voxel_units) return measure_objects(*atlas_, tau, {.objects = objects}, context(), &cost_);
-    return measure_objects(volume(), tau, {.interpolant = interpolant(), .tunnel_height = tunnel_height(), .objects = objects}, context());
+    const bool thickness = arguments_.thickness;
+    if (atlas_ && !arguments_.voxel_units)
+        return measure_objects(*atlas_, tau, {.objects = objects, .thickness = thickness}, context(), &cost_);
+    const MeasureOptions options{
+        .interpolant = interpolant(), .tunnel_height = tunnel_height(), .objects = objects, .thickness = thickness};
+    return measure_objects(volume(), tau, options, context());
 }
 
 std::vector<std::int64_t> Source::samples_below(const std::vector<double>& taus) {

@@ -66,6 +66,7 @@ struct Arguments {
     std::vector<ObjectReference> objects, contours;
     bool exact = false;                          ///< handles: exact pairs
     bool no_percolation = false;                 ///< measure: leave it out
+    bool thickness = false;                      ///< measure
     bool split = false, for_print = false;       ///< extract
     std::optional<double> min_wall;              ///< extract --for-print: millimetres
     std::vector<ObjectReference> removed_names;  ///< name

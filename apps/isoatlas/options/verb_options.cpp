@@ -62,6 +62,7 @@ void measure_options(CLI::App& app, Arguments& arguments, Typed& typed) {
         ->type_name("N|P%");
     add_selection(app, typed.selection, false);
     app.add_flag("--no-percolation", arguments.no_percolation, "Do not look for the isovalues at which a phase percolates");
+    app.add_flag("--thickness", arguments.thickness, "Also how thick objects are: their walls, struts, and with --polarity low pores");
     add_output(app, arguments, ".csv", false);
 }
 

@@ -1,6 +1,7 @@
 #include "text/measures_json.h"
 
 #include <array>
+#include <cmath>
 #include <utility>
 
 namespace isoatlas::cli {
@@ -56,6 +57,8 @@ Json measures_json(const ObjectMeasures& object, const VolumeInfo& info) {
                      {"mean", number(object.feret.mean)},
                      {"max_direction", object.feret.max_direction},
                      {"min_direction", object.feret.min_direction}};
+    const bool has_walls = std::isfinite(object.thickness.median);
+    json["thickness"] = has_walls ? Json{{"min", object.thickness.min}, {"median", object.thickness.median}} : Json(nullptr);
     json["euler"] = object.euler;
     json["tunnels"] = object.tunnels;
     json["cavities"] = object.cavities;

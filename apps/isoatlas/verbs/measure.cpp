@@ -108,7 +108,7 @@ std::string measured_note(const Measured& measured, std::size_t i) {
     return note;
 }
 
-void print_objects(Terminal& terminal, const VolumeInfo& info, const Measured& measured, std::int64_t shown) {
+void print_objects(Terminal& terminal, const VolumeInfo& info, const Measured& measured, std::int64_t shown, bool thickness) {
     const bool flat = info.extent.rank == 2;
     const Scale scale(info);
     double largest = 0;
@@ -122,6 +122,7 @@ void print_objects(Terminal& terminal, const VolumeInfo& info, const Measured& m
     columns.push_back({with_unit("Feret", length)});
     columns.push_back({"min"});
     columns.push_back({flat ? "circularity" : "sphericity"});
+    if (thickness) columns.push_back({with_unit("thickness", length)});
     columns.push_back({with_unit("mean", info.value_unit)});
     columns.push_back({flat ? "holes" : "tunnels"});
     if (!flat) columns.push_back({"cavities"});
@@ -132,8 +133,9 @@ void print_objects(Terminal& terminal, const VolumeInfo& info, const Measured& m
         std::vector<std::string> row{fmt::format("{}", i + 1), voxel_word(object.id)};
         if (!measured.tau) row.push_back(scale.brief(object.tau));
         row.insert(row.end(), {measure_text(object.volume * unit.factor), measure_text(object.area), measure_text(object.feret.max),
-                               measure_text(object.feret.min), fmt::format("{:.3f}", object.sphericity), measure_text(object.values.mean),
-                               object.tunnels == 0 ? "-" : count_text(object.tunnels)});
+                               measure_text(object.feret.min), fmt::format("{:.3f}", object.sphericity)});
+        if (thickness) row.push_back(measure_text(object.thickness.median));
+        row.insert(row.end(), {measure_text(object.values.mean), object.tunnels == 0 ? "-" : count_text(object.tunnels)});
         if (!flat) row.push_back(object.cavities == 0 ? "-" : count_text(object.cavities));
         row.push_back(measured_note(measured, i));
         text.add(row);
@@ -177,6 +179,8 @@ int run_measure(const Arguments& arguments, Terminal& terminal) {
     }
     if (!arguments.output.empty()) check_output(arguments, {".csv"});
     Source source(arguments, terminal);
+    if (arguments.thickness && source.info().extent.rank == 2)
+        throw Error(ErrorKind::usage, {.file = arguments.file, .what = "--thickness is of 3D volumes, this one is 2D", .next = "omit it"});
     Measured measured;
     if (arguments.tau) {
         measured.tau = source.tau();
@@ -196,7 +200,7 @@ int run_measure(const Arguments& arguments, Terminal& terminal) {
         return 0;
     }
     const std::int64_t shown = measured.tau ? std::min(all, arguments.top > 0 ? arguments.top : kDefaultTop) : all;
-    print_objects(terminal, source.info(), measured, shown);
+    print_objects(terminal, source.info(), measured, shown, arguments.thickness);
     if (shown < all) terminal.say(fmt::format("and {} more", count_text(all - shown)));
     print_volume(terminal, source.info(), measured);
     if (arguments.output.empty()) {

@@ -23,7 +23,7 @@ std::string bits_of(const ObjectMeasures& object) {
     put(object.values.sum), put(object.values.deviation), put(object.centroid), put(object.axes.direction), put(object.axes.length);
     put(object.box.centre), put(object.box.size), put(object.feret.max), put(object.feret.min), put(object.feret.mean);
     put(object.feret.max_direction), put(object.feret.min_direction), put(object.euler), put(object.tunnels), put(object.cavities);
-    put(object.touches_border), put(object.bounds), put(object.facets);
+    put(object.touches_border), put(object.bounds), put(object.facets), put(object.thickness.min), put(object.thickness.median);
     return bits;
 }
 
@@ -90,6 +90,12 @@ RC_GTEST_FIXTURE_PROP(Stores, MeasuresAreThoseOfTheVolume, ()) {
     const double tau = low + (high - low) * *rc::gen::inRange(0, 11) / 10;
     const std::vector<ObjectMeasures> objects = measure_objects(volume, tau, {}, one);
     RC_ASSERT(bits_of(measure_objects(volume, tau, {}, arbitrary_context())) == bits_of(objects));
+    if (volume.info.extent.rank == 3) {
+        const std::vector<ObjectMeasures> thick = measure_objects(volume, tau, {.thickness = true}, one);
+        RC_ASSERT(bits_of(measure_objects(volume, tau, {.thickness = true}, arbitrary_context())) == bits_of(thick));
+        RC_ASSERT(bits_of(measure_objects(atlas, tau, {.thickness = true}, arbitrary_context())) == bits_of(thick));
+        for (const ObjectMeasures& object : thick) RC_ASSERT(!(object.thickness.min > object.thickness.median));
+    }
     RC_ASSERT(bits_of(measure_objects(atlas, tau, {}, arbitrary_context())) == bits_of(objects));
     const std::vector<double> taus{low - 1, low, low + (high - low) / 3, high, high + 1};
     RC_ASSERT(samples_below(atlas, taus) == samples_below(volume, taus));

@@ -80,6 +80,22 @@ TEST_P(Walls, ThinOnesAreFound) {
     EXPECT_LT(walls.thin_area, 0.1 * walls.area);
 }
 
+// Each object has its own, also of low values.
+TEST_P(Walls, OfEachObject) {
+    const Field two = [](const Vec3& p) { return std::max(ball(0.6)(minus(p, {0.8, 0, 0})), shell(0.3, 0.55)(minus(p, {-0.8, 0, 0}))); };
+    for (const bool is_low : {false, true}) {
+        Volume volume = sample([&](const Vec3& p) { return is_low ? -two(p) : two(p); }, GetParam(), kStep, 1.5);
+        if (is_low) volume = negated(std::move(volume));
+        const std::vector<ObjectMeasures> objects = measure_objects(volume, 0, {.thickness = true});
+        ASSERT_EQ(objects.size(), 2U);
+        const bool ball_first = objects[0].cavities == 0;
+        EXPECT_NEAR(objects[ball_first ? 0 : 1].thickness.median, 1.2, kHalfVoxel);
+        EXPECT_NEAR(objects[ball_first ? 1 : 0].thickness.median, 0.25, kHalfVoxel);
+        EXPECT_NEAR(objects[ball_first ? 1 : 0].thickness.min, 0.25, kHalfVoxel);
+        EXPECT_TRUE(std::isnan(measure_objects(volume, 0)[0].thickness.median));
+    }
+}
+
 TEST(WallsOfAWedge, GrowFromItsEdge) {
     const Field wedge = [](const Vec3& p) { return std::min({p[2] + 0.5, 0.4 * (0.7 - p[0]) - p[2] - 0.5, 1 - std::abs(p[1])}); };
     EXPECT_LT(thickness_of(wedge, grid_kinds()[0], 1).min, 2 * kStep);
