@@ -163,6 +163,15 @@ class Assumed(CliTest):
         self.assertIn("look like labels", self.run_ok("tree", "labels.npy").stderr)
         self.assertTrue(self.run_json("info", "labels.npy")["survey"]["labels"])
 
+    def test_labels_are_printed(self):
+        document = self.run_json("extract", "labels.npy", "--object", "7", "--for-print", "-o", "label.stl")
+        self.assert_schema(document, "extract-labels")
+        self.assertEqual((document["print"]["pieces"], document["print"]["specks"]), (1, 0))
+        self.assertIn("one unit is taken as 1 mm", document["notes"][0])
+        done = self.run_ok("extract", "labels.npy", "--unit", "cm", "--for-print", "-o", "labels.stl")
+        self.assertIn("for printing: 3 pieces", done.stdout)
+        self.assertIn("in mm", done.stdout)
+
     def test_labels_in_pictures(self):
         def drawn(*more):
             document = self.run_json("render", "labels.npy", "--size", "32x32", "--samples", "1", "-o", "labels.png", *more)

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "data/chosen_surfaces.h"
+#include "data/print_surface.h"
 #include "data/source.h"
 #include "text/document.h"
 #include "text/interrupt.h"
@@ -112,11 +113,16 @@ int extract_label_objects(const Arguments& arguments, Terminal& terminal) {
     check_has_labels(source);
     SurfaceOptions options;
     options.boundary = arguments.boundary, options.style = arguments.style, options.shell = arguments.shell;
+    if (arguments.for_print) options.shell = ShellChoice::outer;
+    std::optional<Printing> printing;
+    if (arguments.for_print) printing = printing_of(arguments);
+    std::vector<std::string> notes;
     const std::vector<std::int64_t> labels = wanted_labels(arguments, source);
     std::vector<NamedSurface> surfaces;
     std::size_t points = 0, triangles = 0, segments = 0;
     for (const std::int64_t label : labels) {
         Surface part = extract_label(source.volume(), label, {.interpolant = source.interpolant(), .surface = options}, source.context());
+        if (printing) print_surface(part, *printing, notes, source.context());
         points += part.points.size(), triangles += part.triangles.size(), segments += part.segments.size();
         surfaces.push_back({std::move(part), fmt::format("label {}", label), bytes_of(colour_of_object(label))});
     }
@@ -127,7 +133,9 @@ int extract_label_objects(const Arguments& arguments, Terminal& terminal) {
         const WritingGuard guard;
         warnings = write_surfaces(arguments.output, surfaces, file_options);
     }
+    if (printing && !thin_walls_text(*printing).empty()) warnings.push_back(thin_walls_text(*printing));
     for (const std::string& warning : warnings) terminal.warn(warning);
+    for (const std::string& note : notes) terminal.say("note: " + note);
     const auto facets = static_cast<std::int64_t>(segments == 0 ? triangles : segments);
     if (arguments.json) {
         Json json = document("extract-labels", source.info(), surface.interpolant, 0, arguments.boundary);
@@ -139,6 +147,8 @@ int extract_label_objects(const Arguments& arguments, Terminal& terminal) {
         json["closed"] = surface.closed;
         json["space"] = space_in_file(arguments.output, surface.space, file_options);
         json["warnings"] = warnings;
+        json["notes"] = notes;
+        json["print"] = printing ? printing_json(*printing) : Json(nullptr);
         add_reads(json, source.reads());
         print(terminal, json);
         return 0;
@@ -146,6 +156,7 @@ int extract_label_objects(const Arguments& arguments, Terminal& terminal) {
     terminal.out() << shown_name(arguments.output) << ": " << counted(facets, surface.segments.empty() ? "triangle" : "segment") << " of "
                    << counted(std::ssize(labels), "label") << (surface.unit.empty() ? "" : ", in " + surface.unit) << ", "
                    << interpolant_text(source.info(), surface.interpolant, 0) << '\n';
+    if (printing) terminal.out() << printing_text(*printing) << '\n';
     if (labels.size() == 1 && !surface.triangles.empty() && surface.closed)
         terminal.next("isoatlas verify " + shell_word(arguments.output));
     return 0;
