@@ -100,6 +100,16 @@ struct AtlasMeasureOptions {
 [[nodiscard]] std::vector<ObjectMeasures> measure_objects(const Atlas& atlas, double tau, const AtlasMeasureOptions& options = {},
                                                           const Context& context = {}, QueryCost* cost = nullptr);
 
+struct LabelMeasureOptions {
+    Interpolant interpolant = Interpolant::trilinear;
+    bool thickness = false;  ///< as above
+};
+/// The labels of a label volume (isoatlas/labels.h), ascending, each as one object, also of several pieces: euler = pieces - tunnels +
+/// cavities. id and tau are the label. Its surface lies half-way to the neighbours. Throws as list_labels(). Cost: for each label that of
+/// extract() of its box.
+[[nodiscard]] std::vector<ObjectMeasures> measure_labels(const Volume& volume, const LabelMeasureOptions& options = {},
+                                                         const Context& context = {});
+
 /// Diameters that at least 10, 25, 50, 75 and 90 % of the objects do not exceed; each is that of an object.
 using SizeQuantiles = std::array<double, 5>;
 inline constexpr SizeQuantiles kSizeFractions{0.1, 0.25, 0.5, 0.75, 0.9};

@@ -64,6 +64,21 @@ MeasuredVoxels::MeasuredVoxels(const VolumeInfo& info, const Components& compone
         const Index3 highest = components.runs.extent.voxel(components.highest[object].number()) + origin;
         places_.push_back({.id = extent.index(highest), .voxels = 0, .box = {extent.size, {0, 0, 0}}});
     }
+    find_places();
+}
+
+MeasuredVoxels::MeasuredVoxels(const VolumeInfo& info, const Components& components)
+    : info_(info), components_(components), origin_{}, boxes_(info.geometry, info.extent) {
+    object_.assign(static_cast<std::size_t>(components.objects()), 0);
+    places_.push_back({.id = components.highest[ObjectNumber(0)].number(), .voxels = 0, .box = {info.extent.size, {0, 0, 0}}});
+    find_places();
+}
+
+/// Boxes and middles of the objects.
+void MeasuredVoxels::find_places() {
+    const Extent& extent = info_.extent;
+    const Components& components = components_;
+    const Index3& origin = origin_;
     for (std::int64_t r = 0; r < components.runs.rows(); ++r) {
         const RunRow row = components.runs.row(r);
         for (std::int64_t i = 1; i < row.changes; i += 2) {

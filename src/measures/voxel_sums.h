@@ -41,6 +41,8 @@ struct ObjectPlace {
 
 class MeasuredVoxels {
 public:
+    /// Of all objects together, as one with the number of the first.
+    MeasuredVoxels(const VolumeInfo& info, const Components& components);
     /// Of those objects that contain one of these voxels, all of them High; empty: of all. components: of the volume, or of the part of it
     /// that begins at `origin` and holds the objects.
     MeasuredVoxels(const VolumeInfo& info, const Components& components, std::span<const std::int64_t> voxels, const Index3& origin = {});
@@ -58,6 +60,7 @@ public:
 
 private:
     struct Part;
+    void find_places();
     template <class T>
     void add_unit(const T* samples, const SampleBox& part, std::int64_t unit, Part& sums) const;
     template <class T>

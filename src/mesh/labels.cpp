@@ -10,12 +10,10 @@
 #include "base/streamed.h"
 #include "isoatlas/cut.h"
 #include "isoatlas/environment.h"
-#include "isoatlas/filter.h"
+#include "mesh/label_mask.h"
 
 namespace isoatlas {
 namespace {
-
-constexpr double kHalf = 0.5;
 
 [[noreturn]] void not_labels(const VolumeInfo& info, std::int64_t index, double value) {
     const Index3 voxel = info.extent.voxel(index);
@@ -94,14 +92,20 @@ private:
     std::unordered_map<std::int64_t, std::size_t> places_;
 };
 
-/// The box of a region and the voxels around it, as far as the volume has them: its surface lies inside.
+std::vector<LabelRegion> regions_of(const Volume& volume, std::int64_t most, const Context& context) {
+    Regions regions(volume, most);
+    regions.look(context);
+    return regions.take();
+}
+
+}  // namespace
+
 SampleBox box_around(const LabelRegion& region, const Extent& extent) {
     SampleBox box{max(region.box_low - 1, Index3{}), min(region.box_high + 2, extent.size)};
     if (extent.rank == 2) box.begin[2] = 0, box.end[2] = 1;
     return box;
 }
 
-/// 1 where a sample of the box is the label, else 0.
 Volume mask_of(const Volume& volume, std::int64_t label, const SampleBox& box) {
     const Volume part = crop(volume, box);
     Volume mask = make_volume(part.info.extent, ValueType::u8, part.info.geometry);
@@ -113,14 +117,6 @@ Volume mask_of(const Volume& volume, std::int64_t label, const SampleBox& box) {
     });
     return mask;
 }
-
-std::vector<LabelRegion> regions_of(const Volume& volume, std::int64_t most, const Context& context) {
-    Regions regions(volume, most);
-    regions.look(context);
-    return regions.take();
-}
-
-}  // namespace
 
 LabelTable list_labels(const Volume& volume, const LabelOptions& options, const Context& context) {
     const EnvironmentScope scope(context);
@@ -135,7 +131,7 @@ LabelTable list_labels(const Volume& volume, const LabelOptions& options, const 
         report(context, only_phase("labels"), static_cast<double>(i) / static_cast<double>(table.regions.size()));
         LabelRegion& region = table.regions[i];
         const Volume mask = mask_of(volume, region.label, box_around(region, volume.info.extent));
-        const Cut at = cut(mask, kHalf, {.interpolant = options.interpolant}, quiet);
+        const Cut at = cut(mask, kMaskLevel, {.interpolant = options.interpolant}, quiet);
         region.components = std::ssize(at.objects);
         for (const CutObject& object : at.objects)
             region.tunnels += object.b1, region.cavities += object.b2, region.measure += object.measure;
@@ -159,7 +155,7 @@ Surface extract_label(const Volume& volume, std::int64_t label, const ExtractOpt
     ExtractOptions all = options;
     all.surface.objects.clear(), all.surface.contours.clear();
     const Volume mask = mask_of(volume, label, box);
-    Surface surface = extract(mask, kHalf, all, context);
+    Surface surface = extract(mask, kMaskLevel, all, context);
     surface.tau = static_cast<double>(label);
     surface.reported_tau = volume.info.calibration.reported(surface.tau);
     std::ranges::fill(surface.object, label);

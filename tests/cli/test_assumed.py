@@ -163,6 +163,22 @@ class Assumed(CliTest):
         self.assertIn("look like labels", self.run_ok("tree", "labels.npy").stderr)
         self.assertTrue(self.run_json("info", "labels.npy")["survey"]["labels"])
 
+    def test_labels_are_measured(self):
+        document, table = self.run_json("measure", "labels.npy", "--thickness"), self.run_json("objects", "labels.npy")["labels"]
+        self.assert_schema(document, "measure")
+        self.assertEqual(document["objects_are"], "labels")
+        self.assertEqual([(o["id"], o["tau"], o["voxels"], o["tunnels"], o["cavities"]) for o in document["objects"]],
+                         [(o["label"], o["label"], o["voxels"], o["tunnels"], o["cavities"]) for o in table])
+        for own, other in zip(document["objects"], table):
+            self.assertAlmostEqual(own["voxel_volume"], other["measure"])
+        self.assertIsNone(document["percolation"])
+        text = self.run_ok("measure", "labels.npy").stdout
+        self.assertRegex(text, "^label +volume")
+        self.assertNotIn("porosity", text)
+        self.run_ok("measure", "labels.npy", "-o", "labels.csv")
+        self.assertEqual(len((self.folder / "labels.csv").read_text().splitlines()), 1 + len(table))
+        self.assertEqual(self.run_json("measure", "labels.npy", "--tau", "5")["objects_are"], "objects")
+
     def test_labels_are_printed(self):
         document = self.run_json("extract", "labels.npy", "--object", "7", "--for-print", "-o", "label.stl")
         self.assert_schema(document, "extract-labels")

@@ -70,7 +70,7 @@ void take_labels(Arguments& arguments, const SampleSurvey& survey) {
     inputs.are_labels = true;
     const std::string why = fmt::format("the samples look like labels ({} whole numbers, {} of the neighbours are equal)", survey.values,
                                         percent(survey.likeness.equal));
-    if (arguments.verb == "objects" || arguments.verb == "extract" || arguments.verb == "render") {
+    if (arguments.verb == "objects" || arguments.verb == "extract" || arguments.verb == "render" || arguments.verb == "measure") {
         const bool has_isovalue = arguments.tau || arguments.best || arguments.cavities || arguments.both || arguments.selects ||
                                   arguments.all || !arguments.curve.empty() || arguments.is_low() ||
                                   arguments.polarity == PolarityChoice::both || shows_isovalues(arguments.picture);

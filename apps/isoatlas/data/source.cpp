@@ -152,6 +152,10 @@ std::vector<ObjectMeasures> Source::measure(double tau, const std::vector<std::i
     return measure_objects(volume(), tau, options, context());
 }
 
+std::vector<ObjectMeasures> Source::measure_labels() {
+    return isoatlas::measure_labels(volume(), {.interpolant = interpolant(), .thickness = arguments_.thickness}, context());
+}
+
 std::vector<std::int64_t> Source::samples_below(const std::vector<double>& taus) {
     const auto count = [this](const std::vector<double>& at) {
         return volume_ ? isoatlas::samples_below(*volume_, at, context()) : isoatlas::samples_below(*atlas_, at, context());

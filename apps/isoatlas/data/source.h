@@ -51,6 +51,8 @@ public:
     [[nodiscard]] Spectrum spectrum(const SpectrumOptions& options);
     /// The objects at an isovalue, or those that contain one of these voxels.
     [[nodiscard]] std::vector<ObjectMeasures> measure(double tau, const std::vector<std::int64_t>& objects);
+    /// The labels of a label volume.
+    [[nodiscard]] std::vector<ObjectMeasures> measure_labels();
     /// Of the samples of the file, whichever the polarity: how many have values below those of these (stored, ascending) isovalues.
     [[nodiscard]] std::vector<std::int64_t> samples_below(const std::vector<double>& taus);
     /// Likewise: high and low values of the file.

@@ -23,6 +23,7 @@ constexpr std::int64_t kDefaultTop = 24;
 
 /// What is printed: the objects in the order of the table, or of one isovalue.
 struct Measured {
+    bool are_labels = false;    ///< the labels of a label volume; nothing of the volume then
     std::optional<double> tau;  ///< stored; none: each object at its best isovalue
     std::vector<ObjectMeasures> objects;
     std::vector<std::string> notes;  ///< of the objects of the table
@@ -78,13 +79,14 @@ void print_json(Terminal& terminal, Source& source, const Measured& measured, st
     const Calibration& calibration = info.calibration;
     Json head = document("measure", info, source.interpolant(), source.tunnel_height());
     head["tau"] = measured.tau ? Json(calibration.reported(*measured.tau)) : Json(nullptr);
+    head["objects_are"] = measured.are_labels ? "labels" : "objects";
     head["samples"] = info.extent.voxels();
     head["below_tau"] = measured.tau ? Json(measured.below_tau) : Json(nullptr);
     Json taus = Json::array();
     for (const double tau : measured.isovalues) taus.push_back(calibration.reported(tau));
     head["porosity"] = {{"tau", std::move(taus)}, {"below", measured.below}};
     head["percolation"] = measured.percolation ? percolation_json(*measured.percolation, info) : Json(nullptr);
-    head["sizes"] = measured.tau ? sizes_json(size_distribution(measured.objects)) : Json(nullptr);
+    head["sizes"] = measured.tau || measured.are_labels ? sizes_json(size_distribution(measured.objects)) : Json(nullptr);
     add_reads(head, source.reads());
     print(terminal, head, "objects", shown, [&](std::int64_t i) {
         Json json = measures_json(measured.objects[static_cast<std::size_t>(i)], info);
@@ -104,7 +106,10 @@ std::string with_unit(const std::string& title, const std::string& unit) { retur
 
 std::string measured_note(const Measured& measured, std::size_t i) {
     std::string note = measured.notes.empty() ? "" : measured.notes[i];
-    if (measured.objects[i].touches_border) note += note.empty() ? "reaches the border" : ", reaches the border";
+    const ObjectMeasures& object = measured.objects[i];
+    const std::int64_t pieces = object.euler + object.tunnels - object.cavities;
+    if (pieces > 1) note = counted(pieces, "piece");
+    if (object.touches_border) note += note.empty() ? "reaches the border" : ", reaches the border";
     return note;
 }
 
@@ -116,26 +121,30 @@ void print_objects(Terminal& terminal, const VolumeInfo& info, const Measured& m
     const MeasureUnit unit = measure_unit(info, largest);
     const std::string& length = info.geometry.unit;
     std::vector<Table::Column> columns{{"#"}, {"id"}};
-    if (!measured.tau) columns.push_back({"tau"});
+    if (measured.are_labels) columns = {{"label"}};
+    const bool has_taus = !measured.tau && !measured.are_labels;
+    if (has_taus) columns.push_back({"tau"});
     columns.push_back({with_unit(flat ? "area" : "volume", unit.name)});
     columns.push_back({flat ? with_unit("length", length) : with_unit("area", length.empty() ? "" : length + "²")});
     columns.push_back({with_unit("Feret", length)});
     columns.push_back({"min"});
     columns.push_back({flat ? "circularity" : "sphericity"});
     if (thickness) columns.push_back({with_unit("thickness", length)});
-    columns.push_back({with_unit("mean", info.value_unit)});
+    if (!measured.are_labels) columns.push_back({with_unit("mean", info.value_unit)});
     columns.push_back({flat ? "holes" : "tunnels"});
     if (!flat) columns.push_back({"cavities"});
     columns.push_back({"note", true});
     Table text(columns);
     for (std::size_t i = 0; i < static_cast<std::size_t>(shown); ++i) {
         const ObjectMeasures& object = measured.objects[i];
-        std::vector<std::string> row{fmt::format("{}", i + 1), voxel_word(object.id)};
-        if (!measured.tau) row.push_back(scale.brief(object.tau));
+        std::vector<std::string> row{fmt::format("{}", measured.are_labels ? object.id : static_cast<std::int64_t>(i) + 1)};
+        if (!measured.are_labels) row.push_back(voxel_word(object.id));
+        if (has_taus) row.push_back(scale.brief(object.tau));
         row.insert(row.end(), {measure_text(object.volume * unit.factor), measure_text(object.area), measure_text(object.feret.max),
                                measure_text(object.feret.min), fmt::format("{:.3f}", object.sphericity)});
         if (thickness) row.push_back(measure_text(object.thickness.median));
-        row.insert(row.end(), {measure_text(object.values.mean), object.tunnels == 0 ? "-" : count_text(object.tunnels)});
+        if (!measured.are_labels) row.push_back(measure_text(object.values.mean));
+        row.push_back(object.tunnels == 0 ? "-" : count_text(object.tunnels));
         if (!flat) row.push_back(object.cavities == 0 ? "-" : count_text(object.cavities));
         row.push_back(measured_note(measured, i));
         text.add(row);
@@ -182,13 +191,16 @@ int run_measure(const Arguments& arguments, Terminal& terminal) {
     if (arguments.thickness && source.info().extent.rank == 2)
         throw Error(ErrorKind::usage, {.file = arguments.file, .what = "--thickness is of 3D volumes, this one is 2D", .next = "omit it"});
     Measured measured;
-    if (arguments.tau) {
+    measured.are_labels = arguments.inputs.are_labels && !arguments.tau && !arguments.selects;
+    if (measured.are_labels) {
+        measured.objects = source.measure_labels();
+    } else if (arguments.tau) {
         measured.tau = source.tau();
         measured.objects = source.measure(*measured.tau, {});
     } else {
         measure_table(arguments, source, measured);
     }
-    measure_volume(arguments, source, measured);
+    if (!measured.are_labels) measure_volume(arguments, source, measured);
     stop_if_interrupted();
     const auto all = static_cast<std::int64_t>(measured.objects.size());
     if (!arguments.output.empty()) {
@@ -196,10 +208,12 @@ int run_measure(const Arguments& arguments, Terminal& terminal) {
         write_measures(arguments.output, source.info(), measured.objects);
     }
     if (arguments.json) {
-        print_json(terminal, source, measured, measured.tau && arguments.top > 0 ? std::min(all, arguments.top) : all);
+        print_json(terminal, source, measured,
+                   (measured.tau || measured.are_labels) && arguments.top > 0 ? std::min(all, arguments.top) : all);
         return 0;
     }
-    const std::int64_t shown = measured.tau ? std::min(all, arguments.top > 0 ? arguments.top : kDefaultTop) : all;
+    const std::int64_t most = arguments.top > 0 ? arguments.top : measured.tau ? kDefaultTop : all;
+    const std::int64_t shown = measured.tau || measured.are_labels ? std::min(all, most) : all;
     print_objects(terminal, source.info(), measured, shown, arguments.thickness);
     if (shown < all) terminal.say(fmt::format("and {} more", count_text(all - shown)));
     print_volume(terminal, source.info(), measured);
