@@ -231,7 +231,7 @@ Written write_several(const Arguments& arguments, Sides& sides, const std::vecto
     };
     if (arguments.for_print) written.print = printing_of(arguments);
     for (ChosenSurface& one : surfaces) {
-        if (written.print) print_surface(one.named.surface, *written.print, written.notes, source.context());
+        if (written.print) print_surface(one.named.surface, *written.print, written.notes, sides.main().context());
         const std::string output = arguments.split ? split_name(arguments.output, one.object) : arguments.output;
         const Counts counts = count(one.named.surface);
         written.counts += counts;
