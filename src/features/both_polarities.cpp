@@ -87,19 +87,19 @@ private:
         add(border_text(own.border, extent_));
     }
 
-    /// The listed entry of the object around a cavity whose isovalue is closest.
+    /// The listed entry of the object around a cavity whose isovalue is closest; background only if there is no other one.
     [[nodiscard]] std::int64_t enclosing(const ObjectEntry& low) const {
         const std::vector<CavityEntry>& cavities = high_.cavities.entries;
         const auto cavity = std::ranges::find_if(
             cavities, [&](const CavityEntry& c) { return c.id == low.id || (options_.holds && options_.holds(low, c.id)); });
         if (cavity == cavities.end()) return -1;
         std::int64_t closest = -1;
-        double distance = std::numeric_limits<double>::infinity();
+        std::pair<bool, double> least{true, std::numeric_limits<double>::infinity()};
         for (std::size_t i = 0; i < list_.size(); ++i) {
-            if (list_[i].polarity == Polarity::low) continue;
             const ObjectEntry& high = entry(list_[i]);
-            const double away = std::abs(high.best_tau - cavity->best_tau);
-            if (high.id == cavity->object && away < distance) closest = static_cast<std::int64_t>(i), distance = away;
+            if (list_[i].polarity == Polarity::low || high.id != cavity->object) continue;
+            const std::pair<bool, double> away{is_background(high, extent_), std::abs(high.best_tau - cavity->best_tau)};
+            if (away < least) closest = static_cast<std::int64_t>(i), least = away;
         }
         return closest;
     }
