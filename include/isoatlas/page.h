@@ -11,7 +11,7 @@
 
 namespace isoatlas {
 
-/// Offers a page of the smoothed volume.
+/// Offers a page of the smoothed volume, and shows what it would: everything at one isovalue as it is and smoothed, side by side.
 struct PageSmoothing {
     double noise_part = 0;  ///< of the noise by the range of values
     double sigma = 0;       ///< of the filter

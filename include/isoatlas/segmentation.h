@@ -22,6 +22,17 @@ struct Segment {
     Polarity polarity = Polarity::high;  ///< low: of a volume that is not negated, an object of low values
 };
 
+/// What a file says of one of its labels.
+struct NamedLabel {
+    std::int64_t label;
+    std::string name;                    ///< UTF-8
+    std::array<std::uint8_t, 3> colour;  ///< red, green, blue: sRGB
+};
+
+/// Of the labels of a file that have a name: .nrrd: its segments, as 3D Slicer and write_segmentation() write them; others: the table
+/// NAME.csv beside it that write_segmentation() writes. By label. Empty: there are none, or what says so cannot be read. Cost: a header.
+[[nodiscard]] std::vector<NamedLabel> named_labels(const std::string& path);
+
 /// Labels of a volume with what each label is: .seg.nrrd (segments with name, colour, isovalue as 3D Slicer reads them); .nrrd, .nii,
 /// .nii.gz, .tif: labels and beside them a table NAME.csv (docs/formats.md#segmentations). labels: per voxel, 0: none, else
 /// Segment::number. The smallest unsigned type is used. Returns warnings for the user. Throws Error: usage (unknown extension, wrong number

@@ -12,6 +12,7 @@
 #include "catalogue/page_axis.h"
 #include "catalogue/thin_curve.h"
 #include "census/count_intervals.h"
+#include "isoatlas/cards.h"
 
 namespace isoatlas {
 namespace {
@@ -114,7 +115,9 @@ private:
     }
 
     void add_object_entries(const ObjectTable& table) {
+        const std::vector<Card> cards = cards_of(table, atlas_.info().extent);
         for (const ObjectEntry& entry : table.entries) {
+            const Card& card = cards[static_cast<std::size_t>(&entry - table.entries.data())];
             contents_.entries.push_back({.branch = place_of_top_.at(entry.branch_top),
                                          .number = std::ssize(contents_.entries) + 1,
                                          .id = entry.id,
@@ -126,7 +129,10 @@ private:
                                          .tunnels = entry.tunnels,
                                          .cavities = entry.cavities,
                                          .inside = entry.inside,
-                                         .reason = reason_of(table, entry)});
+                                         .reason = reason_of(table, entry),
+                                         .card = static_cast<std::int64_t>(card.line) + 1,
+                                         .overlap = card.overlap,
+                                         .is_background = card.is_background});
         }
         for (const RecommendedIsovalue& isovalue : table.isovalues) {
             const std::int64_t branch = place_of_top_.at(EventId(isovalue.branch_top));
@@ -174,7 +180,8 @@ private:
                                          .cavities = entry.islands,
                                          .inside = inside < 0 ? -1 : first_entry + inside,
                                          .around = entry_around(entry),
-                                         .reason = entry.reason});
+                                         .reason = entry.reason,
+                                         .card = branch - first_branch + 1});
         }
     }
     /// The entry of the surrounding object, of several the one with the closest isovalue; -1: that object has none.

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "atlas/overview.h"
+#include "catalogue/compare_smoothing.h"
 #include "catalogue/count_columns.h"
 #include "catalogue/histogram.h"
 #include "catalogue/store_sides.h"
@@ -57,11 +58,13 @@ struct PageEntry {
     std::int64_t inside = -1;                ///< entry of the same side that contains it
     std::int64_t around = -1;                ///< cavity: entry of the surrounding object
     std::optional<IsovalueReason> reason{};  ///< reason of the isovalue, if known
+    std::int64_t card = 0;       ///< number of the line of its branch whose card it is on (isoatlas/cards.h); its own: it has one
+    double overlap = 1;          ///< with that line
+    bool is_background = false;  ///< the outline of the scanned field
     Turntable picture{};
     Colour colour{};
-    bool is_background = false;  ///< isoatlas/objects.h; of pages of both polarities
-    bool is_enclosed = false;    ///< likewise: of low values, a cavity of `around`, if that is on the page
-    std::string border{};        ///< likewise: where it reaches the border
+    bool is_enclosed = false;  ///< of pages of both polarities: of low values, a cavity of `around`, if that is on the page
+    std::string border{};      ///< likewise: where it reaches the border
 };
 
 /// What a page of both polarities says of all objects of low values.
@@ -84,8 +87,9 @@ struct PageContents {
     Histogram histogram;
     std::vector<std::string> notes;          ///< of PageOptions
     std::optional<PageSmoothing> smoothing;  ///< of PageOptions
-    bool exact_tunnels = false;              ///< the pairs of catalogue/longest_tunnels.h
-    std::optional<PageSide> low{};           ///< of both polarities: all else is of high values, or of both (catalogue/joined_contents.h)
+    std::optional<SmoothingComparison> comparison{};
+    bool exact_tunnels = false;     ///< the pairs of catalogue/longest_tunnels.h
+    std::optional<PageSide> low{};  ///< of both polarities: all else is of high values, or of both (catalogue/joined_contents.h)
 };
 
 /// Without pictures. found: of this atlas. Throws as write_page(). Cost: Atlas::histogram(), O(events).

@@ -119,7 +119,26 @@ private:
         }
         const PageSmoothing& smoothing = *contents_.smoothing;
         json_.begin_object().key("noisePart").value(smoothing.noise_part).key("sigma").value(smoothing.sigma);
-        json_.key("command").value(smoothing.command).end_object().line();
+        json_.key("command").value(smoothing.command).key("comparison");
+        write_comparison();
+        json_.end_object().line();
+    }
+
+    void write_comparison() {
+        if (!contents_.comparison) {
+            json_.null();
+            return;
+        }
+        json_.begin_object();
+        put_value("tau", contents_.comparison->tau);
+        const auto put = [this](const char* name, const ShownSmoothing& shown) {
+            json_.key(name).begin_object().key("objects").value(shown.objects).key("tunnels").value(shown.tunnels).key("picture");
+            write_picture(json_, shown.picture);
+            json_.end_object();
+        };
+        put("asItIs", contents_.comparison->as_is);
+        put("smooth", contents_.comparison->smooth);
+        json_.end_object();
     }
 
     /// Positions of the samples along each axis, relative to the first one.
@@ -279,18 +298,14 @@ private:
         json_.key("voxels").value(entry.voxels).key("measure").value(entry.measure);
         json_.key("tunnels").value(entry.tunnels).key("cavities").value(entry.cavities);
         json_.key("inside").value(entry.inside).key("around").value(entry.around);
+        json_.key("card").value(entry.card).key("overlap").value(entry.overlap).key("background").value(entry.is_background);
         json_.key("reason").value(entry.reason ? name_of(*entry.reason) : "").key("why").value(entry.reason ? text_of(*entry.reason) : "");
         if (sides_.has_both()) {
-            json_.key("background").value(entry.is_background).key("enclosed").value(entry.is_enclosed);
+            json_.key("enclosed").value(entry.is_enclosed);
             json_.key("border").value(entry.border);
         }
         json_.key("colour").value(web_colour(entry.colour)).line().key("picture");
-        if (entry.picture.image.empty()) {
-            json_.null();
-        } else {
-            json_.begin_object().key("image").value(entry.picture.image).key("frames").value(entry.picture.frames);
-            json_.key("side").value(entry.picture.side).end_object();
-        }
+        write_picture(json_, entry.picture);
         json_.line().key("commands").begin_array();
         write_commands(i);
         json_.end_array().end_object();
@@ -340,6 +355,15 @@ private:
 std::string command_source(const Atlas& atlas, const std::string& source) {
     const bool needs_side = atlas.polarities() == PolarityChoice::both && polarity_of(atlas.info()) == Polarity::low;
     return shell_word(source) + (needs_side ? " --polarity low" : "");
+}
+
+void write_picture(JsonStream& json, const Turntable& picture) {
+    if (picture.image.empty()) {
+        json.null();
+    } else {
+        json.begin_object().key("image").value(picture.image).key("frames").value(picture.frames);
+        json.key("side").value(picture.side).end_object();
+    }
 }
 
 void write_page_json(JsonStream& json, const StoreSides& sides, const PageContents& contents, const std::string& source) {

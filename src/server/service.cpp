@@ -17,6 +17,7 @@
 #include "server/sample_answers.h"
 #include "server/secret.h"
 #include "server/several_objects.h"
+#include "server/unit_word.h"
 #include "server/wire_mesh.h"
 
 namespace isoatlas {
@@ -292,13 +293,15 @@ Response Service::surface_answer(const Request& request) {
     const std::optional<std::string> format = words.choice("format", {"ply", "stl", "obj", "vtp", "glb"});
     options.ids = format.has_value();
     const std::int64_t max = words.whole("max", 1, kMaxTriangles).value_or(kMaxTriangles);
+    const std::string unit = unit_of_lengths(words, atlas.info().geometry);
     words.reject_unknown();
 
     const std::unique_ptr<JobQueue::Job> job = acquire_job(QueueClass::surfaces, request);
     const Context context = context_of(*job);
     const double stored = stored_tau(atlas, tau);
     if (format) {
-        const Surface surface = extract(atlas, stored, options, context);
+        Surface surface = extract(atlas, stored, options, context);
+        surface.unit = unit;
         Download download(*format, context);
         (void)write_surface(download, surface);
         return file_answer(download.take());
@@ -317,6 +320,8 @@ Response Service::label_answer(const Request& request) {
     const double tau = required_tau(words);
     const std::vector<std::int64_t> objects = voxels(words, "object", request);
     const std::string format = words.choice("format", {"nrrd", "nii", "nii.gz", "tif"}).value_or("nrrd");
+    VolumeInfo info = atlas.info();
+    info.geometry.unit = unit_of_lengths(words, info.geometry);
     words.reject_unknown();
     check_labels_fit();
     const std::unique_ptr<JobQueue::Job> job = acquire_job(QueueClass::surfaces, request);
@@ -327,7 +332,7 @@ Response Service::label_answer(const Request& request) {
     const std::vector<std::uint32_t> labels = object_labels(cut, objects);
     stop_if_cancelled(context);
     Download download(format, context);
-    write_labels(download, atlas.info(), labels, origin);
+    write_labels(download, info, labels, origin);
     return file_answer(download.take());
 }
 

@@ -14,6 +14,7 @@
 #include "isoatlas/surface.h"
 #include "server/download.h"
 #include "server/query_parameters.h"
+#include "server/unit_word.h"
 
 namespace isoatlas {
 namespace {
@@ -129,6 +130,7 @@ Response surfaces_answer(const SeveralObjects& all, const Request& request, cons
     QueryParameters words(request.words);
     const std::vector<NamedPart> parts = parts_of(all, words);
     const std::string format = words.choice("format", {"ply", "stl", "obj", "vtp", "glb"}).value_or("glb");
+    const std::string unit = unit_of_lengths(words, all.sides.stores.main.info().geometry);
     words.reject_unknown();
     std::vector<NamedSurface> surfaces;
     std::int64_t left = all.max_triangles;
@@ -137,6 +139,7 @@ Response surfaces_answer(const SeveralObjects& all, const Request& request, cons
         (part.is_contour ? options.contours : options.objects) = {part.voxel};
         options.max_triangles = std::max<std::int64_t>(left, 1);
         Surface surface = all.sides.atlas(part.polarity).extract(*part.tau, options, context);
+        surface.unit = unit;
         left -= static_cast<std::int64_t>(surface.triangles.size());
         surfaces.push_back({std::move(surface), name_of(all, part), colour_of(part, surfaces.size())});
     }
@@ -149,11 +152,13 @@ Response segmentation_answer(const SeveralObjects& all, const Request& request, 
     QueryParameters words(request.words);
     const std::vector<NamedPart> parts = parts_of(all, words);
     const std::string format = words.choice("format", {"seg.nrrd", "nrrd", "nii", "nii.gz", "tif"}).value_or("seg.nrrd");
+    VolumeInfo info = all.sides.stores.main.info();
+    info.geometry.unit = unit_of_lengths(words, info.geometry);
     words.reject_unknown();
     const Labelled labels = labelled(all, parts, context);
     stop_if_cancelled(context);
     Download download(format, context);
-    (void)write_segmentation(download, labels.of_voxel, labels.segments, all.sides.stores.main.info());
+    (void)write_segmentation(download, labels.of_voxel, labels.segments, info);
     return file_answer(download.take());
 }
 

@@ -163,6 +163,61 @@ class Assumed(CliTest):
         self.assertIn("look like labels", self.run_ok("tree", "labels.npy").stderr)
         self.assertTrue(self.run_json("info", "labels.npy")["survey"]["labels"])
 
+    def label_page(self, name):
+        text = (self.folder / name).read_text()
+        data = json.loads(text.split('id="atlas-data" type="application/json">')[1].split("</script>")[0])
+        self.assert_schema(data, "label-page")
+        return data
+
+    def test_labels_have_a_page(self):
+        document = self.run_json("labels.npy", "-o", "labels.html")
+        self.assert_schema(document, "atlas")
+        self.assertEqual((document["shown"], document["hidden"], document["store"]), (3, 0, None))
+        page, table = self.label_page("labels.html"), self.run_json("objects", "labels.npy")
+        self.assertFalse((self.folder / "labels.atlas").exists())
+        largest_first = sorted(table["labels"], key=lambda one: -one["voxels"])
+        for shown, listed in zip(page["labels"], largest_first, strict=True):
+            for member in ("label", "name", "voxels", "measure", "components", "tunnels", "cavities"):
+                self.assertEqual(shown[member], listed[member])
+            self.assertTrue(shown["picture"]["image"].startswith("data:image/webp;base64,"))
+        self.assertTrue(any("--labels no" in note for note in page["notes"]))
+        for command in page["labels"][0]["commands"]:
+            words = command["line"].split()[1:]
+            self.run_ok(*words, *(["--size", "48x48", "--samples", "1"] if words[0] == "render" else []))
+        few = self.run_json("labels.npy", "-o", "few.html", "--top", "1")
+        self.assertEqual((few["shown"], few["hidden"]), (1, 2))
+        self.assertEqual([one["picture"] is None for one in self.label_page("few.html")["labels"]], [False, True, True])
+        self.run_ok("labels.npy", "--labels", "no", "-o", "values.html", "--top", "1")
+        self.page("values.html")
+
+    def test_labels_are_written_and_drawn(self):
+        document = self.run_json("label", "labels.npy", "--object", "9", "--object", "3", "-o", "two.seg.nrrd")
+        self.assert_schema(document, "label")
+        self.assertEqual([(one["label"], one["voxels"]) for one in document["segments"]], [(k, self.labels.count(k)) for k in (3, 9)])
+        for segment in document["segments"]:
+            self.assertEqual(self.labels[segment["id"]], segment["label"])
+        again = self.run_json("objects", "two.seg.nrrd", "--labels", "yes")
+        self.assertEqual([(one["label"], one["name"], one["voxels"]) for one in again["labels"]],
+                         [(k, f"label {k}", self.labels.count(k)) for k in (3, 9)])
+        largest = max((3, 7, 9), key=self.labels.count)
+        top = self.run_json("label", "labels.npy", "--top", "1", "-o", "top.nii.gz")
+        self.assertEqual([one["label"] for one in top["segments"]], [largest])
+        self.assertEqual([one["name"] for one in self.run_json("objects", "top.nii.gz", "--labels", "yes")["labels"]], [f"label {largest}"])
+        whole = self.run_json("label", "labels.npy", "-o", "whole.tif")
+        self.assertEqual([one["label"] for one in whole["segments"]], [3, 7, 9])
+        small = ["--size", "48x48", "--samples", "1"]
+        drawn = self.run_json("render", "labels.npy", "--object", "7", "-o", "seven.png", *small)
+        self.assertEqual([one["name"] for one in drawn["objects"]], ["label 7"])
+        self.assertEqual(len(self.run_json("render", "labels.npy", "-o", "all.png", *small)["objects"]), 3)
+        named = self.run_json("render", "two.seg.nrrd", "--labels", "yes", "--object", "label 9", "-o", "nine.png", *small)
+        self.assertEqual([one["name"] for one in named["objects"]], ["label 9"])
+        self.run_error(6, "render", "labels.npy", "--object", "8", "-o", "none.png", says="label 8")
+        self.run_error(6, "label", "labels.npy", "--object", "8", "-o", "none.nrrd", says="label 8")
+        self.run_error(2, "label", "labels.npy", "--object", "liver", "-o", "none.nrrd", says="is not a label")
+        self.assertIn("isovalues between them mean nothing", self.run_ok("render", "labels.npy", "--tau", "4", "-o", "tau.png", *small).stderr)
+        self.assertIn("isovalues between them mean nothing", self.run_ok("label", "labels.npy", "--tau", "4", "-o", "tau.nrrd").stderr)
+        self.run_error(2, "view", "labels.npy", "--no-browser", says="makes a page with a card for each label")
+
     def test_labels_are_measured(self):
         document, table = self.run_json("measure", "labels.npy", "--thickness"), self.run_json("objects", "labels.npy")["labels"]
         self.assert_schema(document, "measure")
@@ -196,7 +251,7 @@ class Assumed(CliTest):
 
         self.assertEqual(drawn(), ["label 3", "label 7", "label 9"])
         self.assertEqual(drawn("--object", "9", "3"), ["label 9", "label 3"])
-        self.assertEqual(drawn("--top", "1"), ["label 3"])
+        self.assertEqual(drawn("--top", "1"), [f"label {max((3, 7, 9), key=self.labels.count)}"])
         self.assertEqual(drawn("--tau", "5"), ["isovalue 5"])
         self.assertNotIn("label 3", drawn("--labels", "no"))
         self.run_error(6, "render", "labels.npy", "--object", "8", "-o", "none.png", says="label 8")
@@ -221,6 +276,12 @@ class Assumed(CliTest):
         self.run_ok("noisy.npy", "-o", "noisy.html", "--top", "1")
         smoothing = self.page("noisy.html")["smoothing"]
         self.assertEqual(smoothing["sigma"], sigma)
+        shown = smoothing["comparison"]
+        for name, more in (("asItIs", []), ("smooth", ["--gaussian", str(sigma)])):
+            at = self.run_json("objects", "noisy.npy", "--tau", str(shown["tau"]), *more)
+            self.assertEqual((shown[name]["objects"], shown[name]["tunnels"]), (at["object_count"], sum(one["b1"] for one in at["objects"])))
+            self.assertEqual(shown[name]["picture"]["frames"], 1)
+        self.assertLess(shown["smooth"]["objects"], shown["asItIs"]["objects"])
         self.run_ok(*smoothing["command"].split()[1:], "--top", "1")
         self.assertIsNone(self.page("noisy.smooth.html")["smoothing"])
         self.run_error(2, "noisy.atlas", "--gaussian", "auto", says="contradicts the store")

@@ -12,7 +12,8 @@ DATA = re.compile(r'<script id="atlas-data" type="application/json">(.*?)</scrip
 
 
 class Atlas(harness.CliTest):
-    phantoms = {"demo.nrrd": ["demo", "--size", "40"], "flat.nrrd": ["noise", "--size", "1"], "noise.nrrd": ["noise", "--size", "16"]}
+    phantoms = {"demo.nrrd": ["demo", "--size", "40"], "flat.nrrd": ["noise", "--size", "1"], "noise.nrrd": ["noise", "--size", "16"],
+                "shells.nrrd": ["nested-shells"]}
 
     def page(self, name):
         text = (self.folder / name).read_text()
@@ -54,6 +55,24 @@ class Atlas(harness.CliTest):
         for size in page["volume"]["size"]:
             samples *= size
         self.assertEqual(sum(page["histogram"]["counts"]), samples)
+
+    def test_lines_that_look_the_same_share_a_card(self):
+        table = self.run_json("objects", "shells.nrrd")["objects"]
+        lines = [line["like"] and line["like"]["line"] for line in table]
+        self.assertEqual(lines[:5], [None, 1, 1, None, 4])
+        for line in table:
+            if line["like"]:
+                self.assertEqual(line["like"]["overlap"], line["voxels"] / table[line["like"]["line"] - 1]["voxels"])
+        self.assertIn("inside 1, like 1 (95 %)", self.run_ok("objects", "shells.nrrd").stdout)
+        self.run_ok("shells.nrrd", "-o", "shells.html")
+        entries = self.page("shells.html")[1]["entries"]
+        self.assertEqual([(entry["number"], entry["card"]) for entry in entries[:5]], [(1, 1), (2, 1), (3, 1), (4, 4), (5, 4)])
+        both = self.run_json("objects", "shells.nrrd", "--polarity", "both")["objects"]
+        for line in both:
+            if line["like"]:
+                other = both[line["like"]["line"] - 1]
+                self.assertEqual(other["polarity"], line["polarity"])
+                self.assertEqual(line["like"]["overlap"], min(line["voxels"], other["voxels"]) / max(line["voxels"], other["voxels"]))
 
     def test_counts_of_the_page_are_those_of_the_spectrum(self):
         self.run_ok("demo.nrrd", "-o", "counts.html", "--top", "1")

@@ -97,6 +97,26 @@ class View(harness.CliTest):
             status, _, body = self.ask(f"/api/label?tau={tau!r}&format={format}")
             self.assertEqual((status, body), (200, (self.folder / ("x." + format)).read_bytes()), format)
 
+    def test_a_unit_where_the_file_says_none(self):
+        entry = self.run_json("objects", "field.atlas")["objects"][0]
+        what = f"v{entry['id']}@{entry['best_tau']!r}"
+        for format in ("ply", "stl", "obj", "vtp", "glb"):
+            self.run_json("extract", "field.atlas", "--unit", "um", "--object", what, "-o", "x." + format)
+            where = f"/api/surfaces?object={what}" if format == "glb" else f"/api/surface?tau={entry['best_tau']!r}&object=v{entry['id']}"
+            status, _, body = self.ask(f"{where}&format={format}&unit=%C2%B5m")
+            self.assertEqual((status, body), (200, (self.folder / ("x." + format)).read_bytes()), format)
+        one = f"/api/surface?tau={entry['best_tau']!r}&object=v{entry['id']}&format=ply"
+        self.assertIn("comment unit \u00b5m\n".encode(), self.ask(one + "&unit=um")[2])
+        self.assertNotIn(b"comment unit", self.ask(one)[2])
+        self.run_json("label", "field.atlas", "--unit", "um", "--tau", repr(entry["best_tau"]), "-o", "x.nrrd")
+        status, _, body = self.ask(f"/api/label?tau={entry['best_tau']!r}&unit=um")
+        self.assertEqual((status, body), (200, (self.folder / "x.nrrd").read_bytes()))
+        self.run_json("label", "field.atlas", "--unit", "um", "--object", what, "-o", "x.seg.nrrd")
+        status, _, body = self.ask(f"/api/segmentation?object={what}&unit=um")
+        self.assertEqual((status, body), (200, (self.folder / "x.seg.nrrd").read_bytes()))
+        for wrong in ("a%0Ab", "voxels", "m" * 40):
+            self.assertEqual(self.ask(f"{one}&unit={wrong}")[0], 400, wrong)
+
     def test_numbers_are_those_of_the_command_line(self):
         tables = {side: self.run_json("objects", "field.atlas", "--polarity", side)["objects"] for side in ("high", "low")}
         atlas = self.json_of("/api/atlas")

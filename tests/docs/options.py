@@ -16,6 +16,7 @@ OPTION = r"(?<![\w<!-])--[a-z][\w-]*|(?<![\w\"'-])-[a-z](?![\w-])"
 OTHER_PROGRAMS = re.compile(r"\b(?:unu|dcm2niix|mogrify) ")
 EXEMPT = {
     "src/page/page_json.cpp": "the page shows its reader the commands that extract what it shows",
+    "src/page/label_page.cpp": "likewise, the commands that write and draw a label",
     "src/phantom/phantom.cpp": "a summary names the parameters of its phantom; files of phantoms hold it",
     "src/atlas/lock_text.h": "the mark of the folder of a build: bytes on disk",
 }

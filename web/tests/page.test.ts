@@ -5,7 +5,8 @@ import { join } from "node:path";
 import { fileURLToPath } from "node:url";
 import { chromium, type Browser, type Page as Tab } from "playwright-core";
 import { afterAll, beforeAll, describe, expect, it } from "vitest";
-import type { Page } from "../src/shared/page";
+import type { Label, LabelPage } from "../src/page/labels";
+import type { Page, Smoothed } from "../src/shared/page";
 import { branch, entry, page, scene } from "./sample";
 
 const browserFile = ["/usr/bin/chromium", "/usr/bin/chromium-browser"].find((file) => existsSync(file));
@@ -20,7 +21,7 @@ describe.skipIf(!browserFile || !existsSync(bundled))("the page", () => {
   });
   afterAll(() => browser.close());
 
-  async function open(data: Page | null, hash = ""): Promise<{ tab: Tab; problems: string[] }> {
+  async function open(data: Page | LabelPage | null, hash = ""): Promise<{ tab: Tab; problems: string[] }> {
     const json = JSON.stringify(data).replaceAll("<", "\\u003c");
     const file = join(mkdtempSync(join(tmpdir(), "isoatlas-page-")), "a.html");
     writeFileSync(file, readFileSync(bundled, "utf8").replace('json">null<', () => `json">${json}<`));
@@ -185,6 +186,87 @@ describe.skipIf(!browserFile || !existsSync(bundled))("the page", () => {
     expect([...problems, ...empty.problems]).toEqual([]);
     await tab.close();
     await empty.tab.close();
+  });
+
+  it("has one card for an object that looks the same, and folds the outline of the scanned field away", async () => {
+    const same = page(
+      [branch({}), branch({ merges: 20 })],
+      [
+        entry({ number: 1, card: 1, background: true, tau: 10 }),
+        entry({ number: 2, card: 2, tau: 30 }),
+        entry({ number: 3, card: 2, tau: 50, overlap: 0.8 }),
+        entry({ branch: 1, number: 4, card: 4, tau: 40 }),
+      ],
+    );
+    const { tab, problems } = await open(same);
+    const titles = (where: string): Promise<string[]> => tab.locator(`${where} .card .title`).allTextContents();
+    expect(await titles("section")).toEqual(["Object 2", "Object 4"]);
+    expect(await titles(".field")).toEqual(["Object 1"]);
+    expect(await tab.locator(".field .card").isVisible()).toBe(false);
+    expect(await tab.locator(".range .further").count()).toBe(1);
+    await tab.getByRole("button", { name: "50 (object 3)" }).click();
+    expect(await tab.getByRole("dialog", { name: "Object 3" }).textContent()).toContain("Object 2 at 30");
+    await tab.keyboard.press("Escape");
+    await tab.locator(".field summary").click();
+    expect(await tab.locator(".field .card").isVisible()).toBe(true);
+    expect(problems).toEqual([]);
+    await tab.close();
+    const alone = await open(page([branch({})], [entry({ number: 1, card: 1, background: true })]));
+    expect(await alone.tab.locator(".field .card").isVisible()).toBe(true);
+    await alone.tab.close();
+  });
+
+  it("shows a smoothed picture beside the noisy one", async () => {
+    const noisy = page([branch({})], [entry({})]);
+    const shown = (objects: number): Smoothed => ({ objects, tunnels: 2 * objects, picture: { image: pixel, frames: 1, side: 1 } });
+    const command = "isoatlas scan.nrrd --gaussian 1 -o scan.smooth.html";
+    noisy.smoothing = { noisePart: 0.0462, sigma: 1, command, comparison: { tau: 50, asItIs: shown(594), smooth: shown(14) } };
+    const { tab, problems } = await open(noisy);
+    expect(await tab.locator(".smoothing").textContent()).toContain("4.6 % of the range");
+    expect(await tab.locator(".smoothing code").textContent()).toBe(command);
+    expect(await tab.locator(".smoothing figcaption").allTextContents()).toEqual([
+      "as it is 594 objects, 1,188 tunnels",
+      "smoothed with --gaussian 1 14 objects, 28 tunnels",
+    ]);
+    expect(await tab.locator(".smoothing img").count()).toBe(2);
+    expect(problems).toEqual([]);
+    await tab.close();
+    noisy.smoothing.comparison = null;
+    const without = await open(noisy);
+    expect(await without.tab.locator(".smoothing figure").count()).toBe(0);
+    await without.tab.close();
+  });
+
+  it("has a card for each label of a label volume", async () => {
+    const label = (changes: Partial<Label>): Label => ({
+      ...{ label: 1, name: null, voxels: 10, measure: 20, components: 1, tunnels: 0, cavities: 0, colour: "#56b4e9" },
+      picture: { image: pixel, frames: 4, side: 1 },
+      commands: [{ name: "surface", line: "isoatlas extract a.nrrd --object 1 -o label-1.ply" }],
+      ...changes,
+    });
+    const labels: LabelPage = {
+      schema: "isoatlas/label-page/1",
+      version: "0.2.0",
+      volume: { name: "organs.seg.nrrd", size: [10, 20, 30], type: "uint8", spacing: [1, 1, 2], unit: "mm" },
+      notes: ["the samples look like labels"],
+      interpolant: "trilinear",
+      background: 5000,
+      labels: [label({ label: 5, name: "liver", voxels: 600, measure: 1200 }), label({ label: 2, tunnels: 3, picture: null })],
+    };
+    const { tab, problems } = await open(labels);
+    expect(await tab.title()).toBe("organs.seg.nrrd – labels");
+    expect(await tab.locator(".card h3").allTextContents()).toEqual(["liver", "Label 2"]);
+    expect(await tab.locator(".card").first().textContent()).toContain("1.2 cm³");
+    expect(await tab.locator(".card").first().textContent()).toContain("600 (10 %)");
+    await tab.selectOption("select[name=order]", "label");
+    expect(await tab.locator(".card h3").allTextContents()).toEqual(["Label 2", "liver"]);
+    expect(await tab.locator(".about").textContent()).toContain("the samples look like labels");
+    await tab.locator(".card .commands summary").first().click();
+    expect(await tab.locator(".card code").first().textContent()).toContain("--object 1");
+    await tab.setViewportSize({ width: 360, height: 700 });
+    expect(await tab.evaluate(() => document.documentElement.scrollWidth)).toBeLessThanOrEqual(360);
+    expect(problems).toEqual([]);
+    await tab.close();
   });
 
   it("fits a phone", async () => {

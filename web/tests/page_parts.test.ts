@@ -1,9 +1,11 @@
-import { describe, expect, it } from "vitest";
+import { afterEach, describe, expect, it } from "vitest";
 import { Axis, histogramPath } from "../src/shared/axis";
+import { alsoAt, cardOf, cardsOf } from "../src/shared/cards";
 import { chosenBranches, chosenEntries, firstChoice, ranked } from "../src/page/choice";
 import { columnAt, countPath, countWords, Scale } from "../src/page/columns";
 import { hiddenSentences } from "../src/shared/hidden_counts";
-import { plural, value, volume } from "../src/shared/format";
+import { area, length, plural, value, volume } from "../src/shared/format";
+import { canChoose, chooseUnit, declaredUnit, shownQuantity } from "../src/shared/units";
 import {
   anchorOf, branchName, contentsOf, describe as said, furtherIsovalues, nameOf, placeOf, rangeOf, reasonOf,
 } from "../src/shared/names";
@@ -26,6 +28,32 @@ describe("numbers", () => {
     expect(volume(999, "mm")).toBe("999 mm³");
     expect(volume(12, null)).toBe("12 voxels");
     expect(volume(12, "units")).toBe("12 units³");
+  });
+});
+
+describe("the unit of lengths", () => {
+  afterEach(() => chooseUnit(null));
+  it("is that of the file, or the chosen one, into which numbers are converted", () => {
+    expect(shownQuantity(2, "mm", 3)).toEqual({ amount: 2, unit: "mm", isChosen: false });
+    chooseUnit("µm");
+    expect(shownQuantity(2, "mm", 1)).toEqual({ amount: 2000, unit: "µm", isChosen: true });
+    expect(shownQuantity(2, "mm", 3).amount).toBe(2e9);
+    expect(shownQuantity(5, "µm", 2).amount).toBe(5);
+    expect([volume(2500, "mm"), area(0.5, "mm"), length(0.012, "mm")]).toEqual(["2,500,000,000,000 µm³", "500,000 µm²", "12 µm"]);
+    chooseUnit("m");
+    expect(length(1500, "mm")).toBe("1.5 m");
+    expect(declaredUnit("mm")).toBe(null);
+  });
+  it("of a file without one is declared: numbers stay", () => {
+    expect(volume(12, null)).toBe("12 voxels");
+    chooseUnit("µm");
+    expect([volume(12, null), volume(12, "units"), length(3, null)]).toEqual(["12 µm³", "12 µm³", "3 µm"]);
+    expect([declaredUnit(null), declaredUnit("units")]).toEqual(["µm", "µm"]);
+  });
+  it("of degrees or parsecs cannot be changed", () => {
+    chooseUnit("mm");
+    expect([canChoose("degrees"), canChoose("mm"), canChoose(null)]).toEqual([false, true, true]);
+    expect(volume(12, "kpc")).toBe("12 kpc³");
   });
 });
 
@@ -98,6 +126,25 @@ describe("objects", () => {
     const entries = [entry({ branch: 0, tau: 30 }), entry({ branch: 0, tau: 50 }), entry({ branch: 1, tau: 33 })];
     const nested = page([branch({ isovalues }), branch({ merges: 20 })], entries);
     expect([0, 1, 2].map((i) => furtherIsovalues(nested, i).map(({ tau }) => tau))).toEqual([[31, 33], [48, 70], []]);
+  });
+  it("that look the same share a card", () => {
+    const isovalues = [12, 78].map((tau) => ({ tau, why: "its boundary is sharp" }));
+    const same = page(
+      [branch({ isovalues }), branch({ merges: 20 })],
+      [
+        entry({ number: 1, card: 1, tau: 10, background: true }),
+        entry({ number: 2, card: 2, tau: 30 }),
+        entry({ number: 3, card: 2, tau: 50, overlap: 0.8 }),
+        entry({ number: 4, card: 4, tau: 80 }),
+        entry({ branch: 1, number: 5, card: 5, tau: 40 }),
+      ],
+    );
+    expect(same.entries.map((_, i) => cardOf(same, i))).toEqual([0, 1, 1, 3, 4]);
+    expect(cardsOf(same, [0, 1, 2, 3, 4])).toEqual({ cards: [1, 3, 4], background: [0] });
+    expect(cardsOf(same, [2, 4])).toEqual({ cards: [2, 4], background: [] }); // the card of the former is not listed
+    expect(alsoAt(same, 1)).toEqual([{ tau: 50, why: "80 % of the voxels are the same", entry: 2 }]);
+    expect([0, 3].map((i) => alsoAt(same, i).map(({ tau }) => tau))).toEqual([[12], [78]]);
+    expect(cardsOf(scene, [0, 1, 2, 3])).toEqual({ cards: [0, 1, 2, 3], background: [] }); // pages of earlier versions
   });
   it("have names and descriptions", () => {
     expect([nameOf(scene, 2), nameOf(scene, 3), anchorOf(scene, 3)]).toEqual(["Object 3", "Cavity 1", "cavity-1"]);

@@ -68,6 +68,29 @@ describe.skipIf(!canServe)("a ball", () => {
   }
   const text = (tab: Tab): Promise<string[]> => tab.locator(".measures li b").allTextContents();
 
+  it("is measured in the unit that the user chooses, which is in the link and in the table", async () => {
+    const { tab, problems } = await served.open();
+    const size = (): Promise<string> => tab.locator(".object").innerText();
+    await expect.poll(size).toMatch(/enclosed volume\s+[\d.,]+ [mc]m³/);
+    const unit = tab.getByRole("combobox", { name: "unit of lengths" });
+    await unit.selectOption("µm");
+    await expect.poll(size).toContain("µm³");
+    await expect.poll(size).toMatch(/enclosed volume\s+[\d.,]+ µm³/);
+    expect(await size()).not.toMatch(/[mc]m[²³]/);
+    expect(await tab.locator(".cards .card .about").first().innerText()).toContain("µm³");
+    expect(await tab.locator(".scale").innerText()).toMatch(/^\d+ µm$/);
+    expect(new URL(tab.url()).hash).toContain("unit=um");
+    const other = await served.open(new URL(tab.url()).hash);
+    expect(await other.tab.getByRole("combobox", { name: "unit of lengths" }).inputValue()).toBe("µm");
+    await expect.poll(() => other.tab.locator(".scale").innerText()).toMatch(/^\d+ µm$/);
+    await other.tab.close();
+    await unit.selectOption("");
+    await expect.poll(size).not.toContain("µm³");
+    expect(new URL(tab.url()).hash).not.toContain("unit=");
+    expect(problems).toEqual([]);
+    await tab.close();
+  });
+
   it("has its diameter, clicked on both sides", async () => {
     const { tab, problems } = await served.open(scene);
     await tab.locator(".objects h1").click();

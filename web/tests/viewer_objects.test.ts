@@ -1,12 +1,26 @@
 // Finding objects among thousands, in a browser, on a noisy volume; numbers are compared with the command line.
+import { readFileSync } from "node:fs";
+import { join } from "node:path";
 import type { Page as Tab } from "playwright-core";
 import { afterAll, beforeAll, describe, expect, it } from "vitest";
 import { canServe, meshes, Served } from "./viewer_harness";
 
+interface Listed {
+  id: number;
+  number: number;
+  best_tau: number;
+  appears: number;
+  merges: number;
+  voxels: number;
+  tunnels: number;
+  note: string;
+  like: { line: number } | null;
+}
+
 interface Table {
   branches: number;
   hidden: number;
-  objects: { id: number; best_tau: number; appears: number; merges: number; voxels: number; tunnels: number }[];
+  objects: Listed[];
 }
 
 describe.skipIf(!canServe)("the list of objects", () => {
@@ -19,12 +33,16 @@ describe.skipIf(!canServe)("the list of objects", () => {
   const table = (...words: string[]): Table => JSON.parse(served.isoatlas("objects", served.store, ...words, "--json")) as Table;
   const said = (tab: Tab): Promise<string> => tab.locator(".objects > p[role=status]").innerText();
   const title = (tab: Tab): Promise<string> => tab.locator(".object h2").innerText();
+  const isField = ({ note, voxels }: Listed): boolean => note.startsWith("outline") && voxels > (2 / 3) * 40 ** 3;
+  const withCards = ({ objects }: Table): string[] =>
+    objects.filter((object) => object.like === null && !isField(object)).map(({ number }) => `Object ${number}`);
   const count = (n: number): string => n.toLocaleString("en");
 
   it("opens with cards with turntables; a click isolates, the checkbox adds", async () => {
     const { tab, problems } = await served.open();
     const first = table();
-    expect(await tab.locator(".cards").first().locator(".card").count()).toBe(first.objects.length + 1);
+    const cards = withCards(first);
+    expect(await tab.locator(".cards").first().locator(".card").count()).toBe(cards.length + 1);
     expect(await said(tab)).toContain(`${first.branches - first.hidden} of ${count(first.branches)} objects shown`);
     const card = tab.locator(".card").first();
     await card.locator(".turntable").focus();
@@ -32,10 +50,45 @@ describe.skipIf(!canServe)("the list of objects", () => {
     await tab.keyboard.press("ArrowRight");
     expect(await card.locator(".turntable").getAttribute("data-frame")).toBe("1");
     await tab.locator(".card .picture").nth(1).click();
-    expect(await title(tab)).toBe("Object 2");
+    expect(await title(tab)).toBe(cards[1]);
     await tab.locator(".card").nth(2).getByRole("checkbox").check();
     expect(await tab.locator(".objects input:checked").count()).toBe(2);
-    expect(await tab.locator(".card.selected b").innerText()).toBe("Object 3");
+    expect(await tab.locator(".card.selected b").innerText()).toBe(cards[2]);
+    expect(problems).toEqual([]);
+    await tab.close();
+  });
+
+  it("folds the outline of the scanned field away, until it is in the scene", async () => {
+    const { tab, problems } = await served.open();
+    const field = table().objects.find(isField)!;
+    expect(await title(tab)).not.toBe(`Object ${field.number}`); // the viewer begins with another one
+    expect(await tab.locator(".field .card").isVisible()).toBe(false);
+    expect(await tab.locator(".field .card b").textContent()).toBe(`Object ${field.number}`);
+    await tab.locator(".field summary").click();
+    await tab.locator(".field .picture").click();
+    expect(await title(tab)).toBe(`Object ${field.number}`);
+    expect(await tab.locator(".field").count()).toBe(0);
+    expect(await tab.locator(".card.selected b").innerText()).toBe(`Object ${field.number}`);
+    expect(problems).toEqual([]);
+    await tab.close();
+  });
+
+  it("takes lengths to be in the chosen unit, as the file has none", async () => {
+    const { tab, problems } = await served.open();
+    const facts = (): Promise<string> => tab.locator(".object").innerText();
+    await expect.poll(facts).toMatch(/enclosed volume\s+[\d.,]+ voxels/);
+    const before = await facts();
+    await tab.getByRole("combobox", { name: "unit of lengths" }).selectOption("µm");
+    await expect.poll(facts).toMatch(/enclosed volume\s+[\d.,]+ µm³/);
+    const [was, is] = [before, await facts()].map((text) => /enclosed volume\s+([\d.,]+)/.exec(text)?.[1]);
+    expect(is).toBe(was);
+    await tab.keyboard.press("s");
+    expect(await tab.locator(".export code").textContent()).toContain("--unit um");
+    await tab.getByRole("combobox", { name: "format of the surface" }).selectOption("ply");
+    const [download] = await Promise.all([tab.waitForEvent("download"), tab.getByRole("button", { name: "Save the surface" }).click()]);
+    const file = join(served.folder, "micro.ply");
+    await download.saveAs(file);
+    expect(readFileSync(file, "utf8").slice(0, 1000)).toContain("comment unit µm");
     expect(problems).toEqual([]);
     await tab.close();
   });
@@ -182,7 +235,7 @@ describe.skipIf(!canServe)("the list of objects", () => {
     }
     await tab.getByRole("tab", { name: "Cards" }).tap();
     await tab.locator(".card .picture").nth(1).tap();
-    expect(await title(tab)).toBe("Object 2");
+    expect(await title(tab)).toBe(withCards(table())[1]);
     expect(problems).toEqual([]);
     await tab.close();
   });

@@ -10,7 +10,7 @@ import { ANY, CHOICE, commandOf, isChosen, isSelection, selectionOptions, TAB, t
 import { find } from "../src/viewer/panels/object_search";
 import { History } from "../src/viewer/state/history";
 import { spanOf } from "../src/viewer/panels/scatter_plot";
-import { isolate, NOTHING } from "../src/viewer/state/state";
+import { isolate, NOTHING, type State } from "../src/viewer/state/state";
 import { foldedAway } from "../src/viewer/panels/tree_keys";
 import { branch, entry, page } from "./sample";
 
@@ -171,7 +171,32 @@ describe("the search", () => {
   it("sorts, with cavities and other objects of the scene apart", () => {
     expect(found("", "isovalue").slice(0, 2)).toEqual([1, 9]);
     const scene = isolate(NOTHING, 8, 1).shown;
-    expect(find(volume, [0], scene, { text: "", order: "rank" })).toEqual({ objects: [0], cavities: [3], others: [8] });
+    expect(find(volume, [0], scene, { text: "", order: "rank" })).toEqual({
+      objects: [0],
+      cards: [0],
+      background: [],
+      cavities: [3],
+      others: [8],
+    });
+  });
+  it("has one card for what looks the same, but for what is in the scene or found, and keeps the scanned field apart", () => {
+    const same = page(
+      [branch({}), branch({ merges: 20 })],
+      [
+        entry({ number: 1, card: 1, background: true }),
+        entry({ number: 2, card: 2 }),
+        entry({ number: 3, card: 2, overlap: 0.8 }),
+        entry({ branch: 1, number: 4, card: 4 }),
+      ],
+    );
+    const cardsOf = (shown: State["shown"], text = ""): number[][] => {
+      const { cards, background } = find(same, [0, 1, 2, 3], shown, { text, order: "rank" });
+      return [cards, background];
+    };
+    expect(cardsOf([])).toEqual([[1, 3], [0]]);
+    expect(cardsOf(isolate(NOTHING, 2, 1).shown)).toEqual([[1, 2, 3], [0]]);
+    expect(cardsOf(isolate(NOTHING, 0, 1).shown)).toEqual([[0, 1, 3], []]);
+    expect(cardsOf([], "object 3")).toEqual([[2], []]);
   });
 });
 

@@ -15,6 +15,9 @@ interface Listed {
   id: number;
   best_tau: number;
   voxels: number;
+  number: number;
+  note: string;
+  like: { line: number } | null;
 }
 
 /** Steps of the session, by mouse or keys. */
@@ -145,10 +148,11 @@ for (const [volume, there, serve] of volumes) {
         const { tab, problems } = await served.open("", { viewport: { width: 1280, height: 800 }, permissions });
         const step = (name: string): Promise<void> => keepPicture(tab, `${hand.name}-${name}`);
         listed = (JSON.parse(served.isoatlas("objects", served.store, "--json")) as { objects: Listed[] }).objects;
-        const largest = listed.reduce((most, object, i) => (object.voxels > (listed[most]?.voxels ?? 0) ? i : most), 0);
-        const object = listed[largest] as Listed;
-        const title = `Object ${largest + 1}`;
-        const other = `Object ${((largest + 1) % listed.length) + 1}`;
+        const cards = listed.filter(({ like, note }) => like === null && !note.startsWith("outline")); // the scanned field is folded
+        const largest = cards.reduce((most, object, i) => (object.voxels > (cards[most]?.voxels ?? 0) ? i : most), 0);
+        const object = cards[largest] as Listed;
+        const title = `Object ${object.number}`;
+        const other = `Object ${cards[(largest + 1) % cards.length]?.number}`;
         const note = (): Promise<string[]> => tab.locator(".scene .state").allTextContents();
         await expect.poll(note).toEqual([expect.stringMatching(/triangles$/)]);
         await step("1-opened");

@@ -23,7 +23,8 @@ bool is_analysis(const std::string& verb) {
     return std::ranges::find(verbs, verb) != verbs.end();
 }
 
-std::string percent(double part) { return fmt::format("{:.2g} %", 100 * part); }
+/// Two digits, and never 1e+02.
+std::string percent(double part) { return part >= 0.995 ? "nearly all" : fmt::format("{:.2g} %", 100 * part); }
 
 /// The number as a user would type it: 1e20 for the float next to it.
 double typed_value(double stored, ValueType type) {
@@ -65,21 +66,31 @@ void leave_out(Arguments& arguments, const FillValue& fill, const VolumeInfo& in
         scale.brief(fill.high)));
 }
 
+/// Verbs that take labels as objects.
+bool has_labels(const std::string& verb) {
+    constexpr std::array<std::string_view, 7> verbs{"atlas", "view", "objects", "measure", "extract", "label", "render"};
+    return std::ranges::find(verbs, verb) != verbs.end();
+}
+
+/// Is something asked for that only values have?
+bool has_isovalue(const Arguments& arguments) {
+    return arguments.tau || arguments.best || arguments.cavities || arguments.both || arguments.selects || arguments.all ||
+           arguments.zones || shows_isovalues(arguments.picture) || !arguments.curve.empty() || arguments.is_low() ||
+           arguments.polarity == PolarityChoice::both;
+}
+
 void take_labels(Arguments& arguments, const SampleSurvey& survey) {
     InputChoices& inputs = arguments.inputs;
     inputs.are_labels = true;
     const std::string why = fmt::format("the samples look like labels ({} whole numbers, {} of the neighbours are equal)", survey.values,
                                         percent(survey.likeness.equal));
-    if (arguments.verb == "objects" || arguments.verb == "extract" || arguments.verb == "render" || arguments.verb == "measure") {
-        const bool has_isovalue = arguments.tau || arguments.best || arguments.cavities || arguments.both || arguments.selects ||
-                                  arguments.all || !arguments.curve.empty() || arguments.is_low() ||
-                                  arguments.polarity == PolarityChoice::both || shows_isovalues(arguments.picture);
-        inputs.are_labels = !has_isovalue;
-        inputs.assumed.push_back(
-            why + (has_isovalue
-                       ? ", isovalues between them mean nothing; without them and without --polarity there is one object for each label"
-                       : ": one object for each; --labels no takes them as values"));
+    if (has_labels(arguments.verb)) {
+        inputs.are_labels = !has_isovalue(arguments);
+        inputs.assumed.push_back(why + (inputs.are_labels ? ": one object for each; --labels no takes them as values"
+                                                          : ", isovalues between them mean nothing; without them and without --polarity "
+                                                            "there is one object for each label"));
     } else {
+        inputs.are_labels = false;
         inputs.assumed.push_back(why + ", isovalues between them mean nothing: isoatlas objects " + shell_word(arguments.file) +
                                  reading_options(arguments) + " has one object for each");
     }

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "data/label_directory.h"
 #include "data/picture.h"
 #include "data/sides.h"
 
@@ -27,6 +28,7 @@ struct Wanted {
     ShellChoice shell = ShellChoice::all;
     Polarity polarity = Polarity::high;
     std::optional<std::int64_t> label{};  ///< of a label volume; then nothing of the above but the name
+    Colour own{};                         ///< of the label
 };
 
 Wanted wanted_object(const ChosenObject& object, ShownPart part = ShownPart::object) {
@@ -58,15 +60,14 @@ void add_shown(const Arguments& arguments, Sides& sides, std::vector<Wanted>& wa
 
 /// As typed, or all labels.
 std::vector<Wanted> wanted_labels(const Arguments& arguments, Source& source) {
+    LabelDirectory directory(arguments, source);
+    std::vector<ObjectReference> references;
+    for (const ShownObject& shown : arguments.picture.objects) references.push_back(shown.reference);
     std::vector<Wanted> wanted;
-    const auto add = [&](std::int64_t label) { wanted.push_back({.name = fmt::format("label {}", label), .label = label}); };
-    for (const ShownObject& shown : arguments.picture.objects) add(shown.reference.number);
-    if (!wanted.empty()) return wanted;
-    const LabelTable table = list_labels(source.volume(), {.interpolant = source.interpolant()}, source.context());
-    for (const LabelRegion& region : table.regions) {
-        if (arguments.top == 0 || std::ssize(wanted) < arguments.top) add(region.label);
+    for (const std::int64_t label : directory.find(references, arguments.top)) {
+        const auto [red, green, blue] = directory.colour_of(label);
+        wanted.push_back({.name = directory.title_of(label), .label = label, .own = Colour{red / 255.0, green / 255.0, blue / 255.0}});
     }
-    if (wanted.empty()) nothing_there(arguments, "there is no label but the background");
     return wanted;
 }
 
@@ -217,7 +218,8 @@ void add_samples(const Arguments& arguments, Source& source, Scene& scene) {
 
 bool shows_isovalues(const PictureArguments& picture) {
     const auto is_no_label = [](const ShownObject& shown) {
-        return shown.part != ShownPart::object || shown.reference.tau || shown.reference.kind != ObjectReference::Kind::number;
+        const bool is_label = shown.reference.kind == ObjectReference::Kind::number || shown.reference.kind == ObjectReference::Kind::name;
+        return shown.part != ShownPart::object || shown.reference.tau || !is_label;
     };
     return !picture.taus.empty() || picture.volume || !picture.slices.empty() || std::ranges::any_of(picture.objects, is_no_label);
 }
@@ -249,7 +251,7 @@ Scene scene_of(const Arguments& arguments, Sides& sides) {
         if (surface.triangles.empty()) nothing_there(arguments, "there is no surface: " + wanted.name);
         const std::size_t i = scene.objects.size();
         const Colour colour = i < picture.colours.size() ? picture.colours[i]
-                              : wanted.label             ? colour_of_object(*wanted.label)
+                              : wanted.label             ? wanted.own
                                                          : palette(static_cast<std::int64_t>(i));
         scene.objects.push_back({.surface = std::move(surface), .colour = colour, .opacity = 1, .name = wanted.name});
     }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 #include <vector>
 
@@ -55,6 +56,21 @@ inline void add_number_and_name(Json& json, std::int64_t number, const std::stri
 template <class Entry>
 std::string note_of(const Entry& entry, const std::vector<std::string>& called) {
     return entry.note.starts_with("inside ") ? "inside " + called[static_cast<std::size_t>(entry.inside)] : entry.note;
+}
+
+/// "like 1 (84 %)": it is on the card of line 1; empty: it has its own card. called: every line of the table.
+[[nodiscard]] inline std::string likeness_note(const Card& card, std::size_t line, const std::vector<std::string>& called) {
+    return card.line == line ? "" : fmt::format("like {} ({} %)", called[card.line], std::lround(100 * card.overlap));
+}
+
+/// line: from 1, in the list that is printed; 0: it is not in the list.
+[[nodiscard]] inline Json likeness_json(const Card& card, std::int64_t line, bool is_own) {
+    if (is_own || line == 0) return nullptr;
+    return {{"line", line}, {"overlap", card.overlap}};
+}
+
+[[nodiscard]] inline std::string joined_notes(const std::string& note, const std::string& other) {
+    return note.empty() || other.empty() ? note + other : note + ", " + other;
 }
 
 /// Number of every line of a table: "2", "c3"; "-": it has none.

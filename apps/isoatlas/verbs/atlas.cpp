@@ -46,6 +46,7 @@ std::optional<PageSmoothing> smoothing_of(const Arguments& arguments, const Volu
 }  // namespace
 
 int run_atlas(const Arguments& arguments, Terminal& terminal) {
+    if (arguments.inputs.are_labels) return run_label_page(arguments, terminal);
     const std::string page = arguments.output.empty() ? stem_of(arguments) + ".atlas.html" : arguments.output;
     check_output(arguments, page, {".html"});
     const std::string store = store_for(arguments, terminal, store_beside(page));

@@ -174,6 +174,7 @@ int label_chosen(const Arguments& arguments, Terminal& terminal) {
 }  // namespace
 
 int run_label(const Arguments& arguments, Terminal& terminal) {
+    if (arguments.inputs.are_labels) return label_label_objects(arguments, terminal);
     check_label_arguments(arguments);
     if (chooses(arguments)) return label_chosen(arguments, terminal);
     Source source(arguments, terminal);

@@ -3,9 +3,8 @@
 
 #include <fmt/format.h>
 
-#include "data/chosen_surfaces.h"
+#include "data/label_directory.h"
 #include "data/print_surface.h"
-#include "data/source.h"
 #include "text/document.h"
 #include "text/interrupt.h"
 #include "text/sizes.h"
@@ -17,26 +16,12 @@
 namespace isoatlas::cli {
 namespace {
 
-constexpr std::size_t kMostAtOnce = 1024;  ///< surfaces in one file, unless --object names them
-
-/// A store of objects of low values has no labels: its samples come negated.
-void check_has_labels(const Source& source) {
-    if (polarity_of(source.info()) == Polarity::low)
-        throw Error(ErrorKind::usage, {.file = source.info().path,
-                                       .what = "the store holds objects of low values, and labels have none",
-                                       .next = "name the volume file, or omit --labels yes"});
-}
-
-Json region_json(const LabelRegion& region, const VolumeInfo& info) {
-    return {{"label", region.label},
-            {"voxels", region.voxels},
-            {"measure", region.measure},
-            {"components", region.components},
-            {"tunnels", region.tunnels},
-            {"cavities", region.cavities},
-            {"box", {{"low", region.box_low}, {"high", region.box_high}}},
-            {"position", region.position},
-            {"position_physical", to_physical(info.geometry, region.position)}};
+Json region_json(const LabelRegion& region, const VolumeInfo& info, const std::string& name) {
+    return {{"label", region.label},           {"name", name.empty() ? Json(nullptr) : Json(name)},
+            {"voxels", region.voxels},         {"measure", region.measure},
+            {"components", region.components}, {"tunnels", region.tunnels},
+            {"cavities", region.cavities},     {"box", {{"low", region.box_low}, {"high", region.box_high}}},
+            {"position", region.position},     {"position_physical", to_physical(info.geometry, region.position)}};
 }
 
 std::string box_text(const LabelRegion& region, int rank) {
@@ -46,14 +31,17 @@ std::string box_text(const LabelRegion& region, int rank) {
     return text;
 }
 
-void print_labels_text(const Arguments& arguments, Terminal& terminal, const VolumeInfo& info, const LabelTable& table) {
+void print_labels_text(const Arguments& arguments, Terminal& terminal, const VolumeInfo& info, const LabelTable& table,
+                       const LabelDirectory& directory) {
     const Sizes sizes(info, largest_measure(table.regions));
     std::vector<Table::Column> columns{{"label"}};
+    if (!directory.names().empty()) columns.push_back({"name", true});
     sizes.add_titles(columns);
     columns.insert(columns.end(), {{"components"}, {"box", true}});
     Table text(columns);
     for (const LabelRegion& region : table.regions) {
         std::vector<std::string> row{fmt::format("{}", region.label)};
+        if (!directory.names().empty()) row.push_back(directory.name_of(region.label));
         sizes.add(row, region.voxels, region.measure, region.tunnels, region.cavities);
         row.insert(row.end(), {count_text(region.components), box_text(region, info.extent.rank)});
         text.add(row);
@@ -66,65 +54,44 @@ void print_labels_text(const Arguments& arguments, Terminal& terminal, const Vol
                               table.regions.front().label));
 }
 
-std::vector<std::int64_t> wanted_labels(const Arguments& arguments, Source& source) {
-    std::vector<std::int64_t> labels;
-    for (const ObjectReference& reference : arguments.objects) {
-        if (reference.kind != ObjectReference::Kind::number || reference.tau) {
-            throw Error(ErrorKind::usage, {.where = "--object",
-                                           .what = "'" + reference.word + "' is not a label",
-                                           .expected = "the number of a label: this volume holds labels, which have no isovalues",
-                                           .next = "isoatlas objects " + shell_word(arguments.file) + " lists them; or --labels no"});
-        }
-        labels.push_back(reference.number);
-    }
-    if (!labels.empty()) return labels;
-    const LabelTable table = list_labels(source.volume(), {.interpolant = source.interpolant()}, source.context());
-    for (const LabelRegion& region : table.regions) labels.push_back(region.label);
-    if (labels.empty() || labels.size() > kMostAtOnce) {
-        throw Error(ErrorKind::not_found,
-                    {.file = arguments.file,
-                     .what = labels.empty() ? "there is no label but the background" : "there are too many labels for one file",
-                     .next = "name some with --object LABEL"});
-    }
-    return labels;
-}
-
 }  // namespace
 
 int list_label_objects(const Arguments& arguments, Terminal& terminal) {
     Source source(arguments, terminal);
-    check_has_labels(source);
+    const LabelDirectory directory(arguments, source);
     const Volume& volume = source.volume();
     const LabelTable table = list_labels(volume, {.interpolant = source.interpolant()}, source.context());
     if (!arguments.json) {
-        print_labels_text(arguments, terminal, volume.info, table);
+        print_labels_text(arguments, terminal, volume.info, table, directory);
         return 0;
     }
     Json head = document("labels", volume.info, source.interpolant(), 0);
     head["background"] = table.background;
     add_reads(head, source.reads());
-    print(terminal, head, "labels", std::ssize(table.regions),
-          [&](std::int64_t i) { return region_json(table.regions[static_cast<std::size_t>(i)], volume.info); });
+    print(terminal, head, "labels", std::ssize(table.regions), [&](std::int64_t i) {
+        const LabelRegion& region = table.regions[static_cast<std::size_t>(i)];
+        return region_json(region, volume.info, directory.name_of(region.label));
+    });
     return 0;
 }
 
 int extract_label_objects(const Arguments& arguments, Terminal& terminal) {
     Source source(arguments, terminal);
-    check_has_labels(source);
+    LabelDirectory directory(arguments, source);
     SurfaceOptions options;
     options.boundary = arguments.boundary, options.style = arguments.style, options.shell = arguments.shell;
     if (arguments.for_print) options.shell = ShellChoice::outer;
     std::optional<Printing> printing;
     if (arguments.for_print) printing = printing_of(arguments);
     std::vector<std::string> notes;
-    const std::vector<std::int64_t> labels = wanted_labels(arguments, source);
+    const std::vector<std::int64_t> labels = directory.find(arguments.objects);
     std::vector<NamedSurface> surfaces;
     std::size_t points = 0, triangles = 0, segments = 0;
     for (const std::int64_t label : labels) {
         Surface part = extract_label(source.volume(), label, {.interpolant = source.interpolant(), .surface = options}, source.context());
         if (printing) print_surface(part, *printing, notes, source.context());
         points += part.points.size(), triangles += part.triangles.size(), segments += part.segments.size();
-        surfaces.push_back({std::move(part), fmt::format("label {}", label), bytes_of(colour_of_object(label))});
+        surfaces.push_back({std::move(part), directory.title_of(label), directory.colour_of(label)});
     }
     const Surface& surface = surfaces.front().surface;
     const SurfaceFileOptions file_options{.space = arguments.space.value_or(PointSpace::lps)};

@@ -32,7 +32,7 @@ std::string extract_command(const Arguments& arguments, const std::string& refer
 // The table: objects at their best isovalues.
 
 Json entry_json(const ObjectTable& table, std::size_t i, const VolumeInfo& info, ObjectDirectory& directory,
-                const std::vector<std::string>& called) {
+                const std::vector<std::string>& called, const Card& card) {
     const ObjectEntry& entry = table.entries[i];
     const Scale scale(info);
     Json json{{"id", entry.id}, {"event", entry.event.number()}};
@@ -48,7 +48,8 @@ Json entry_json(const ObjectTable& table, std::size_t i, const VolumeInfo& info,
     json["b2"] = entry.cavities;
     json["tunnels"] = entry.tunnels;
     json["cavities"] = entry.cavities;
-    add_size_and_place(json, entry, info, note_of(entry, called));
+    add_size_and_place(json, entry, info, joined_notes(note_of(entry, called), likeness_note(card, i, called)));
+    json["like"] = likeness_json(card, static_cast<std::int64_t>(card.line) + 1, card.line == i);
     if (scale.is_low()) json["border"] = border_json(entry.border);
     return json;
 }
@@ -68,6 +69,7 @@ void print_table_json(Terminal& terminal, Source& source, ObjectDirectory& direc
                       const CavityTable* cavities = nullptr) {
     const VolumeInfo& info = source.info();
     const std::vector<std::string> called = references_of(table, directory, "");
+    const std::vector<Card> cards = cards_of(table, info.extent);
     Json head = document("objects", info, source.interpolant(), source.tunnel_height());
     head["tau"] = nullptr;
     head["branches"] = table.branches;
@@ -77,8 +79,10 @@ void print_table_json(Terminal& terminal, Source& source, ObjectDirectory& direc
     head["noise_part"] = range.high > range.low ? table.noise / (range.high - range.low) : 0;
     if (cavities != nullptr) add_cavities(head, *cavities, info, directory);
     add_reads(head, source.reads());
-    print(terminal, head, "objects", static_cast<std::int64_t>(table.entries.size()),
-          [&](std::int64_t i) { return entry_json(table, static_cast<std::size_t>(i), info, directory, called); });
+    print(terminal, head, "objects", static_cast<std::int64_t>(table.entries.size()), [&](std::int64_t i) {
+        const auto line = static_cast<std::size_t>(i);
+        return entry_json(table, line, info, directory, called, cards[line]);
+    });
 }
 
 std::string best_tau_text(const ObjectEntry& entry, const Scale& scale) {
@@ -111,7 +115,7 @@ void tell_other_isovalues(Terminal& terminal, const ObjectTable& table, const st
 std::string with_border(const std::string& note, const ObjectEntry& entry, const VolumeInfo& info) {
     if (polarity_of(info) == Polarity::high) return note;
     const std::string border = entry.border.is_known() && entry.border.sides == 0 ? "cavity" : border_text(entry.border, info.extent);
-    return note.empty() || border.empty() ? note + border : note + ", " + border;
+    return joined_notes(note, border);
 }
 
 void print_table_text(Terminal& terminal, const Arguments& arguments, Source& source, ObjectDirectory& directory,
@@ -119,6 +123,7 @@ void print_table_text(Terminal& terminal, const Arguments& arguments, Source& so
     const Scale scale(source.info());
     const Sizes sizes(source.info(), largest_measure(table.entries));
     const std::vector<std::string> numbers = numbers_of(table, directory, ""), called = references_of(table, directory, "");
+    const std::vector<Card> cards = cards_of(table, source.info().extent);
     const bool has_name = has_names(table, directory);
     std::vector<Table::Column> columns{{"#"}};
     if (has_name) columns.push_back({"name", true});
@@ -133,7 +138,8 @@ void print_table_text(Terminal& terminal, const Arguments& arguments, Source& so
         row.insert(row.end(), {voxel_word(entry.id), scale.brief(entry.appears), scale.brief(entry.merges), best_tau_text(entry, scale)});
         sizes.add(row, entry.voxels, entry.measure, entry.tunnels, entry.cavities);
         const std::optional<RecommendedIsovalue> best = isovalue_of(table, entry);
-        row.insert(row.end(), {best ? name_of(best->reason) : "", with_border(note_of(entry, called), entry, source.info())});
+        const std::string note = joined_notes(note_of(entry, called), likeness_note(cards[i], i, called));
+        row.insert(row.end(), {best ? name_of(best->reason) : "", with_border(note, entry, source.info())});
         text.add(row);
     }
     tell_table(terminal, source, table);

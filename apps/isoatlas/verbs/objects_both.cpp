@@ -23,12 +23,13 @@ struct Called {
     std::vector<std::int64_t> numbers;    ///< 0: none
     std::vector<std::string> references;  ///< "2", "low2"; without a number the voxel
     std::vector<std::string> names;       ///< that a user gave; empty: none
+    std::vector<Card> cards;
 };
 
 Called find_called(const Arguments& own, Source& source, Terminal& terminal, const ObjectTable& table) {
     ObjectDirectory directory(own, source, terminal);
     const Polarity polarity = polarity_of(source.info());
-    Called called;
+    Called called{.cards = cards_of(table, source.info().extent)};
     for (const ObjectEntry& entry : table.entries) {
         const bool is_numbered = !own.all && !own.selects;
         const std::int64_t number = is_numbered ? std::ssize(called.numbers) + 1 : directory.number_of(entry);
@@ -55,6 +56,13 @@ struct Tables {
     [[nodiscard]] const Called& called(Polarity polarity) const { return polarity == Polarity::high ? high_called : low_called; }
     [[nodiscard]] const VolumeInfo& info_of(Polarity polarity) const { return polarity == Polarity::high ? info : low_info; }
     [[nodiscard]] const ObjectEntry& entry(const RankedObject& object) const { return of(object.polarity).entries[object.entry]; }
+    [[nodiscard]] const Card& card(const RankedObject& object) const { return called(object.polarity).cards[object.entry]; }
+    /// Line of the list whose card it is on, from 1; 0: not listed.
+    [[nodiscard]] std::int64_t card_line(const RankedObject& object) const {
+        const auto own = std::ranges::find_if(
+            list, [&](const RankedObject& other) { return other.polarity == object.polarity && other.entry == card(object).line; });
+        return own == list.end() ? 0 : own - list.begin() + 1;
+    }
     /// Of a line of the list.
     [[nodiscard]] const std::string& reference(std::int64_t line) const {
         const RankedObject& object = list[static_cast<std::size_t>(line)];
@@ -125,6 +133,7 @@ std::string line_note(const Tables& tables, const RankedObject& object) {
     } else if (entry.main_branch) {
         add("largest");
     }
+    add(likeness_note(tables.card(object), object.entry, tables.called(object.polarity).references));
     if (object.is_enclosed) add(object.cavity_of >= 0 ? "cavity of " + tables.reference(object.cavity_of) : "cavity");
     if (object.polarity == Polarity::low) add(border_text(entry.border, tables.info.extent));
     return note;
@@ -150,6 +159,7 @@ Json object_json(const Tables& tables, const RankedObject& object) {
     json["cavities"] = entry.cavities;
     add_size_and_place(json, entry, info, line_note(tables, object));
     json["inside"] = object.inside >= 0 ? Json(object.inside + 1) : Json(nullptr);
+    json["like"] = likeness_json(tables.card(object), tables.card_line(object), tables.card(object).line == object.entry);
     json["cavity_of"] = object.cavity_of >= 0 ? Json(object.cavity_of + 1) : Json(nullptr);
     json["border"] = border_json(entry.border);
     return json;

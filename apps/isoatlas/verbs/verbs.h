@@ -21,6 +21,9 @@ int run_extract(const Arguments& arguments, Terminal& terminal);
 /// `objects` and `extract` of a label volume.
 int list_label_objects(const Arguments& arguments, Terminal& terminal);
 int extract_label_objects(const Arguments& arguments, Terminal& terminal);
+/// The page and `label` of a label volume.
+int run_label_page(const Arguments& arguments, Terminal& terminal);
+int label_label_objects(const Arguments& arguments, Terminal& terminal);
 /// objects --polarity both.
 int run_objects_of_both(const Arguments& arguments, Terminal& terminal);
 int run_render(const Arguments& arguments, Terminal& terminal);

@@ -95,6 +95,15 @@ void keep_token(Server& server, Terminal& terminal) {
     }
 }
 
+/// The viewer is about isovalues, which mean nothing between labels.
+[[noreturn]] void refuse_labels(const Arguments& arguments) {
+    const std::string file = shell_word(arguments.file) + reading_options(arguments);
+    throw Error(ErrorKind::usage, {.file = arguments.file,
+                                   .what = "the samples look like labels, and the viewer shows objects at isovalues",
+                                   .next = "isoatlas " + file + " makes a page with a card for each label; isoatlas render " + file +
+                                           " draws them; --labels no views the samples as values"});
+}
+
 /// Prints a new address at each Enter.
 void wait_for_the_end(const Arguments& arguments, Terminal& terminal, Server& server) {
     constexpr int kLook = 100;  // milliseconds
@@ -113,6 +122,7 @@ void wait_for_the_end(const Arguments& arguments, Terminal& terminal, Server& se
 }  // namespace
 
 int run_view(const Arguments& arguments, Terminal& terminal) {
+    if (arguments.inputs.are_labels) refuse_labels(arguments);
     keep_memory_flat();
     const std::string store = store_to_view(arguments);
     AtlasOptions options{.cache_bytes = arguments.memory, .polarity = arguments.side()};

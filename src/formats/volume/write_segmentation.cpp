@@ -11,14 +11,13 @@
 #include "formats/common/file_access.h"
 #include "formats/common/text.h"
 #include "formats/volume/label_samples.h"
+#include "formats/volume/segmentation_table.h"
 #include "isoatlas/polarity.h"
 #include "isoatlas/segmentation.h"
 
 namespace isoatlas {
 
 namespace {
-
-constexpr std::string_view kTableHeader = "number,name,red,green,blue,isovalue,voxels";  // of low values one more
 
 /// First and last voxel along each axis; low above high: none.
 struct Box {
@@ -135,7 +134,7 @@ std::string csv_cell(const std::string& text) {
 std::string table_text(std::span<const Segment> segments, Polarity polarity) {
     const auto is_low = [polarity](const Segment& segment) { return is_of_low_values(segment, polarity); };
     const bool tells = std::ranges::any_of(segments, is_low);
-    std::string text = std::string(kTableHeader) + (tells ? ",polarity\n" : "\n");
+    std::string text = std::string(kSegmentTableHeader) + (tells ? ",polarity\n" : "\n");
     for (const Segment& segment : segments) {
         text += std::to_string(segment.number) + "," + csv_cell(name_of_segment(segment));
         for (const std::uint8_t channel : segment.colour) text += "," + std::to_string(channel);
@@ -145,19 +144,13 @@ std::string table_text(std::span<const Segment> segments, Polarity polarity) {
     return text;
 }
 
-/// "labels.nii.gz" -> "labels.csv".
-std::string table_path(const std::string& path) {
-    const std::size_t drop = ends_with_ignoring_case(path, ".gz") ? path.rfind('.', path.size() - 4) : path.rfind('.');
-    return path.substr(0, drop) + ".csv";
-}
-
 /// A table of an earlier run may be replaced, another file may not: its name was not asked for.
 void check_table(const std::string& table) {
     if (!file_exists(table)) return;
     const std::unique_ptr<File> file = open_file(table);
-    std::string begin(kTableHeader.size(), '\0');
+    std::string begin(kSegmentTableHeader.size(), '\0');
     begin.resize(read_available(*file, table, 0, std::as_writable_bytes(std::span(begin.data(), begin.size()))));
-    if (begin == kTableHeader) return;
+    if (begin == kSegmentTableHeader) return;
     throw Error(ErrorKind::resource, {.file = table,
                                       .what = "the table of the labels has this name, and another file has it already",
                                       .next = "rename that file, or write the labels under another name",
@@ -208,10 +201,10 @@ std::vector<std::string> write_segmentation(const std::string& path, std::span<c
                                             std::span<const Segment> segments, const VolumeInfo& info) {
     check_labels(path, info, labels);
     std::optional<AtomicFile> table;
-    if (!is_slicers(path)) check_table(table_path(path));
+    if (!is_slicers(path)) check_table(segment_table_path(path));
     AtomicFile file(path);
     write_labels_of(file, labels, segments, info);
-    if (!is_slicers(path)) table.emplace(table_path(path)).write(table_text(segments, polarity_of(info)));
+    if (!is_slicers(path)) table.emplace(segment_table_path(path)).write(table_text(segments, polarity_of(info)));
     file.commit();
     if (table) table->commit();
     return warnings_of(path, info.geometry);

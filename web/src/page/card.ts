@@ -1,16 +1,22 @@
 // A card for an object: its picture, its size, and the range of its isovalues.
+import { alsoAt } from "../shared/cards";
 import { html } from "../shared/dom";
 import { value, volume } from "../shared/format";
-import { anchorOf, describe, furtherIsovalues, isCavity, nameOf, placeOf, rangeOf, reasonOf, shapeOf, valuesOf } from "../shared/names";
+import { anchorOf, describe, isCavity, nameOf, placeOf, rangeOf, reasonOf, shapeOf, valuesOf } from "../shared/names";
 import { rangeBar } from "../shared/overview";
 import { branchOf, entryOf, type Page } from "../shared/page";
 import { turntable } from "../shared/turntable";
 
-/** The other isovalues at which it looks much the same. */
-function alsoAt(page: Page, i: number): HTMLElement[] {
-  const further = furtherIsovalues(page, i);
-  if (further.length === 0) return [];
-  const chips = further.map(({ tau, why }) => html("li", { title: why }, value(tau)));
+/** The other isovalues at which it looks much the same; those with a number open. */
+function others(page: Page, i: number, open: (i: number) => void): HTMLElement[] {
+  const also = alsoAt(page, i);
+  if (also.length === 0) return [];
+  const chips = also.map(({ tau, why, entry }) => {
+    if (entry === undefined) return html("li", { title: why }, value(tau));
+    const [name, click] = [nameOf(page, entry), () => open(entry)];
+    const link = html("button", { type: "button", class: "link", click }, `${value(tau)} (${name.toLowerCase()})`);
+    return html("li", { title: `${name}: ${why}` }, link);
+  });
   return [html("dt", {}, "also at"), html("dd", {}, html("ul", { class: "chips" }, ...chips))];
 }
 
@@ -32,7 +38,7 @@ export function card(page: Page, i: number, open: (i: number) => void): HTMLElem
     { class: "facts" },
     html("dt", {}, page.polarity === "both" ? "values" : "isovalue"),
     html("dd", {}, valuesOf(page, i), reason ? html("span", { class: "why" }, ` (${reason})`) : null),
-    ...alsoAt(page, i),
+    ...others(page, i, open),
     html("dt", {}, "exists"),
     html("dd", {}, rangeOf(branchOf(page, entry.branch), page)),
     html("dt", {}, "size"),

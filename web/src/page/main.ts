@@ -1,17 +1,21 @@
 // The page from top to bottom.
 import { narrowScreens } from "../shared/axis";
 import { card } from "./card";
+import { scannedField } from "./scanned_field";
 import { chosenBranches, chosenEntries, firstChoice, type Choice } from "./choice";
 import { controls } from "./controls";
 import { curves } from "./curve";
 import { Detail } from "./detail";
+import { cardsOf } from "../shared/cards";
 import { html } from "../shared/dom";
 import { count, value } from "../shared/format";
 import { glossary } from "./glossary";
+import { isLabelPage, showLabels } from "./labels";
 import { hiddenSentences } from "../shared/hidden_counts";
 import { others } from "./others";
 import { overview } from "../shared/overview";
-import { readPage, type Page } from "../shared/page";
+import { hasCard, readPage, type Page } from "../shared/page";
+import { smoothing } from "./smoothing";
 import { spectrum } from "./spectrum";
 import "./page.css";
 
@@ -35,23 +39,7 @@ function about(page: Page): HTMLElement {
     html("p", {}, `${volume.size.join(" × ")} samples, ${volume.type}, ${range}${noise}${spacing}.${side}`),
     ...verdict(page).map((words) => html("p", {}, words)),
     ...(page.notes ?? []).map((words) => html("p", { class: "assumed" }, `Note: ${words}.`)),
-    ...smoothing(page),
   );
-}
-
-/** Strong noise, and how to make the page of the smoothed volume beside this one. */
-function smoothing(page: Page): HTMLElement[] {
-  if (!page.smoothing) return [];
-  const { noisePart, command } = page.smoothing;
-  return [
-    html(
-      "p",
-      { class: "assumed" },
-      `The noise is ${value(Number((100 * noisePart).toPrecision(2)))} % of the range of values: objects are ragged and may be joined. `,
-      "A page of the smoothed volume beside this one: ",
-      html("code", {}, command),
-    ),
-  ];
 }
 
 function verdict(page: Page): string[] {
@@ -93,7 +81,9 @@ function explanation(page: Page): string {
     );
   const side = page.polarity === "low" ? "higher" : "lower";
   const cavities = hasCavities(page) ? ` Cavities are enclosed regions of ${side} values, drawn as the surface around them.` : "";
-  return `Most important first, by contrast × size: how much its values differ from those around it, summed over its volume.${cavities}`;
+  const alike = page.entries.every(hasCard) ? "" : " Isovalues with 60 % of its voxels in common share a card.";
+  const order = "Most important first, by contrast × size: how much its values differ from those around it, summed over its volume.";
+  return order + alike + cavities;
 }
 
 function start(page: Page, main: HTMLElement): void {
@@ -101,41 +91,37 @@ function start(page: Page, main: HTMLElement): void {
   const detail = new Detail(page);
   const open = (i: number): void => detail.open(i);
   const items = page.entries.map((_, i) => card(page, i, open));
+  const all = page.entries.filter(hasCard).length;
   const cards = html("ol", { class: "cards" });
+  const field = scannedField();
   const status = html("p", { class: "message", role: "status" });
   const lanes = html("div", {});
   const rest = html("div", {});
   const counts = curves(page);
-  const background = html("ol", { class: "cards" });
-  const folded = html(
-    "details",
-    { class: "background" },
-    html("summary", {}, "Background: outlines of nearly the whole volume, and what is around everything"),
-    background,
-  );
   const show = (choice: Choice): void => {
     const kept = chosenBranches(page, choice);
     const entries = chosenEntries(page, choice);
-    const isBackground = (i: number): boolean => page.entries[i]?.background === true;
-    cards.replaceChildren(...entries.filter((i) => !isBackground(i)).map((i) => items[i] as HTMLElement));
-    background.replaceChildren(...entries.filter(isBackground).map((i) => items[i] as HTMLElement));
-    folded.hidden = background.children.length === 0;
-    status.textContent = entries.length === items.length ? "" : `${count(entries.length)} of ${count(items.length)} pictures shown`;
+    const shown = cardsOf(page, entries);
+    cards.replaceChildren(...shown.cards.map((i) => items[i] as HTMLElement));
+    field.show(shown.background.map((i) => items[i] as HTMLElement), shown.cards.length === 0);
+    const hidden = all - shown.cards.length - shown.background.length;
+    status.textContent = hidden > 0 ? `${count(all - hidden)} of ${count(all)} pictures shown` : "";
     lanes.replaceChildren(overview(page, kept, open));
     const pictured = new Set(page.entries.map((entry) => entry.branch));
     rest.replaceChildren(others(page, [...kept].filter((b) => !pictured.has(b))) ?? "");
     for (const { polarity, mark } of counts)
       mark([...kept].filter((b) => page.branches[b]?.side === "object" && page.branches[b].polarity === polarity).length);
   };
-  main.append(about(page));
+  main.append(about(page), ...smoothing(page));
   const constant = page.volume.low === page.volume.high;
   if (items.length > 0 && !constant) {
     show(firstChoice(page));
     const { keep, filter } = controls(page, show);
     main.append(
       html("section", { class: "panel" }, html("h2", {}, "Objects over the isovalue"), keep, lanes),
-      html("section", {}, html("h2", {}, heading(page)), html("p", { class: "note" }, explanation(page)), filter, status, cards, folded),
+      html("section", {}, html("h2", {}, heading(page)), html("p", { class: "note" }, explanation(page)), filter, status, cards),
       rest,
+      field.element,
     );
   }
   const last = html("footer", {}, `isoatlas ${page.version}, interpolant ${page.interpolant}. This page loads nothing from elsewhere.`);
@@ -144,8 +130,11 @@ function start(page: Page, main: HTMLElement): void {
 }
 
 const main = document.getElementById("atlas");
-const page = readPage(document.getElementById("atlas-data")?.textContent ?? "null");
-if (main && page) {
+const text = document.getElementById("atlas-data")?.textContent ?? "null";
+const data: unknown = JSON.parse(text);
+const page = isLabelPage(data) ? null : readPage(text);
+if (main && isLabelPage(data)) showLabels(data, main);
+else if (main && page) {
   start(page, main);
   matchMedia(narrowScreens).addEventListener("change", () => {
     main.replaceChildren();

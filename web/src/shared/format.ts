@@ -1,4 +1,5 @@
 // Text of numbers, volumes and areas.
+import { shownQuantity } from "./units";
 
 const groups = new Intl.NumberFormat("en", { maximumFractionDigits: 0 });
 
@@ -24,29 +25,33 @@ const ladders: Record<string, [string, number][]> = {
   nm: [["µm", 1000], ["mm", 1000], ["m", 1000]],
 };
 
-/** A volume in unit^3, in the largest unit in which it is at least 1. */
+/** A volume in unit^3, in the largest unit in which it is at least 1, or in the chosen one. */
 export function volume(measure: number, unit: string | null): string {
-  return unit === null ? plural(measure, "voxel") : powerOf(measure, unit, 3);
+  return powerOf(measure, unit, 3) ?? plural(measure, "voxel");
 }
 
 /** An area in unit^2; null: the unit is a face of a voxel, as a voxel is the unit of volumes. */
 export function area(measure: number, unit: string | null): string {
-  return unit === null ? plural(Math.round(measure), "voxel face") : powerOf(measure, unit, 2);
+  return powerOf(measure, unit, 2) ?? plural(Math.round(measure), "voxel face");
 }
 
 /** A length in the unit; null: in voxels. */
 export function length(measure: number, unit: string | null): string {
-  return unit === null ? `${value(Number(measure.toPrecision(3)))} voxels` : powerOf(measure, unit, 1);
+  return powerOf(measure, unit, 1) ?? `${value(Number(measure.toPrecision(3)))} voxels`;
 }
 
-function powerOf(measure: number, unit: string, power: 1 | 2 | 3): string {
-  let name = unit;
-  let size = measure;
-  for (const [larger, factor] of ladders[unit] ?? []) {
+/** null: there is no unit, and none is chosen. */
+function powerOf(measure: number, unit: string | null, power: 1 | 2 | 3): string | null {
+  const shown = shownQuantity(measure, unit, power);
+  if (shown.unit === null) return null;
+  let name = shown.unit;
+  let size = shown.amount;
+  for (const [larger, factor] of shown.isChosen ? [] : (ladders[name] ?? [])) {
     if (size < factor ** power) break;
     size /= factor ** power;
     name = larger;
   }
   const digits = Number(size.toPrecision(3));
-  return `${digits >= 1000 ? count(digits) : value(digits)} ${name}${["", "²", "³"][power - 1]}`;
+  const text = digits >= 1000 && digits < 1e15 ? count(digits) : value(digits);
+  return `${text} ${name}${["", "²", "³"][power - 1]}`;
 }

@@ -1,6 +1,6 @@
 // Names and short descriptions of entries.
 import { plural, value, volume } from "./format";
-import { branchOf, entryOf, isLowOfBoth, isOfLowValues, type Advice, type Branch, type Page } from "./page";
+import { branchOf, entryOf, hasCard, isLowOfBoth, isOfLowValues, type Advice, type Branch, type Page } from "./page";
 
 export function isCavity(page: Page, i: number): boolean {
   return branchOf(page, entryOf(page, i).branch).side === "cavity";
@@ -119,12 +119,12 @@ export function entriesOf(page: Page, branch: number): number[] {
   return page.entries.flatMap((entry, k) => (entry.branch === branch ? [k] : []));
 }
 
-/** Further isovalues of its branch for which this entry is the closest one, ascending: at them it looks much the same. */
+/** Further isovalues of its branch for which the card of this entry is the closest one, ascending. */
 export function furtherIsovalues(page: Page, i: number): Advice[] {
   const { branch } = entryOf(page, i);
-  const rows = entriesOf(page, branch);
+  const rows = entriesOf(page, branch).filter((k) => hasCard(entryOf(page, k)));
   const distance = (k: number, tau: number): number => Math.abs(entryOf(page, k).tau - tau);
-  const closest = (tau: number): number => rows.reduce((best, k) => (distance(k, tau) < distance(best, tau) ? k : best), i);
+  const closest = (tau: number): number => rows.reduce((best, k) => (distance(k, tau) < distance(best, tau) ? k : best), rows[0] ?? i);
   return (branchOf(page, branch).isovalues ?? []).filter(({ tau }) => closest(tau) === i).sort((p, q) => p.tau - q.tau);
 }
 

@@ -1,9 +1,10 @@
 // All objects over the isovalue axis: a line for each from its appearance to its merge, and on to the object it
 // merges into. Objects grow to the left, cavities to the right. The histogram is drawn behind.
 import { Axis, axisName, drawingWidth, drawTicks, histogramPath } from "./axis";
+import { alsoAt } from "./cards";
 import { svg } from "./dom";
 import { value } from "./format";
-import { describe, entriesOf, furtherIsovalues, isCavity, nameOf, numberOf } from "./names";
+import { describe, entriesOf, isCavity, nameOf, numberOf } from "./names";
 import { branchOf, endOfBranch, entryOf, isLowOfBoth, type Page } from "./page";
 
 const head = 90;
@@ -143,7 +144,7 @@ export function rangeBar(page: Page, i: number): SVGSVGElement {
   };
   bar(endOfBranch(page, branch), branch.appears, "whole", 33, 4);
   bar(entry.low, entry.high, "stable", 31, 8);
-  for (const { tau } of furtherIsovalues(page, i)) drawing.append(svg("path", { class: "further", d: `M${axis.x(tau)} 26V40` }));
+  for (const { tau } of alsoAt(page, i)) drawing.append(svg("path", { class: "further", d: `M${axis.x(tau)} 26V40` }));
   drawing.append(
     svg("title", {}, `${nameOf(page, i)} at ${value(entry.tau)}`),
     svg("path", { class: "needle", d: `M${axis.x(entry.tau)} 4V40` }),

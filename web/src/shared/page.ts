@@ -94,7 +94,7 @@ export interface Entry {
   name?: string | null;
   /** as commands take it: 2, c1, low2 */
   reference?: string;
-  /** pages of both: an outline of nearly the whole volume, or what is around everything */
+  /** the outline of the scanned field, or of low values what is around everything */
   background?: boolean;
   /** pages of both: of low values, and does not reach the border: a cavity of `around`, where that is on the page */
   enclosed?: boolean;
@@ -115,6 +115,10 @@ export interface Entry {
   inside: number;
   /** of a cavity, or of low values and enclosed: the entry of the object around it, -1: none */
   around: number;
+  /** number of the entry of its branch whose card shows it; absent, or its own: it has a card */
+  card?: number;
+  /** with that entry: voxels of both by voxels of either */
+  overlap?: number;
   /** reason for this isovalue, as a key and as a sentence; empty: unknown */
   reason: string;
   why: string;
@@ -141,6 +145,20 @@ export interface Curve {
 export interface Found {
   all: number;
   significant: number;
+}
+
+/** Everything at an isovalue. */
+export interface Smoothed {
+  objects: number;
+  tunnels: number;
+  picture: Picture | null;
+}
+
+/** As it is and smoothed, at one isovalue. */
+export interface Comparison {
+  tau: number;
+  asItIs: Smoothed;
+  smooth: Smoothed;
 }
 
 export interface Page {
@@ -170,7 +188,7 @@ export interface Page {
   /** what was assumed about the samples, and how to undo it */
   notes?: string[];
   /** offered where the noise is strong: its part of the range of values, and the command that makes the page of the filtered volume */
-  smoothing?: { noisePart: number; sigma: number; command: string } | null;
+  smoothing?: { noisePart: number; sigma: number; command: string; comparison?: Comparison | null } | null;
   interpolant: string;
   /** objects of high values, or of low ones: those appear at their lowest value and merge at a higher one; absent: high; both: the
    * entries of both in one list, and all that is not about a branch or in `low` is of high values */
@@ -198,6 +216,11 @@ export function entryOf(page: Page, i: number): Entry {
   const entry = page.entries[i] ?? page.further?.(i);
   if (!entry) throw new Error(`no entry ${i}`);
   return entry;
+}
+
+/** shared/cards.ts */
+export function hasCard(entry: Entry): boolean {
+  return !entry.card || entry.card === entry.number;
 }
 
 export function branchOf(page: Page, b: number): Branch {

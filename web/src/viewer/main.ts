@@ -14,6 +14,7 @@ import type { ViewerContext } from "./context/viewer_context";
 import { Editor } from "./context/editor";
 import { ObjectNames } from "./api/object_names";
 import { History } from "./state/history";
+import { addUnitTool } from "./tools/unit_tool";
 import { addTools } from "./tools/tools";
 import { help, menus } from "./menus";
 import { ObjectPanel } from "./panels/object_panel";
@@ -24,6 +25,7 @@ import { ScenePanel } from "./panels/scene_panel";
 import { Viewport } from "./scene/viewport";
 import { NOTHING, type State } from "./state/state";
 import { addIsovalueSteps } from "./panels/isovalue_steps";
+import { firstToShow } from "../shared/cards";
 import { addThemeAction } from "./context/theme";
 import { Tour } from "./tour";
 import { waitForPage } from "./waiting";
@@ -55,6 +57,7 @@ class Viewer implements ViewerContext {
     this.editor = new Editor(page, this.history);
     this.scene = new Scene(this);
     this.names = new ObjectNames(api, page);
+    addUnitTool(this, () => this.renewTitles()); // first: all others make text with lengths
     this.objectList = new ObjectListPanel(this);
     addIsovalueSteps(this);
     this.axis = new IsovaluePanel(this);
@@ -96,6 +99,7 @@ class Viewer implements ViewerContext {
   }
 
   private renewTitles(): void {
+    this.viewport.draw();
     for (const panel of [this.objectList, this.shown, this.objectPanel]) panel.renew(this.history.now);
   }
 
@@ -129,10 +133,8 @@ class Viewer implements ViewerContext {
 
 /** The entry that an address names by its reference, "#low2"; else the first one. */
 function firstOf(page: Page, hash: string): number {
-  return Math.max(
-    0,
-    page.entries.findIndex((_, i) => `#${referenceOf(page, i)}` === hash),
-  );
+  const named = page.entries.findIndex((_, i) => `#${referenceOf(page, i)}` === hash);
+  return named >= 0 ? named : firstToShow(page);
 }
 
 /** The key of this browser, issued by the server; every request carries it in addition to a cookie. */

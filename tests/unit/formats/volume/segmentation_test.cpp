@@ -50,6 +50,41 @@ std::map<std::string, std::string> nrrd_pairs(const std::string& path) {
     return pairs;
 }
 
+TEST(NamedLabels, AreReadBackFromEveryFormat) {
+    const TestFolder folder;
+    const VolumeInfo info = info_of({.rank = 3, .size = {6, 5, 4}}, {.space = "LPS", .unit = "mm"});
+    for (const std::string& name : kNames) {
+        (void)write_segmentation(folder / name, labels(), segments(), info);
+        const std::vector<NamedLabel> named = named_labels(folder / name);
+        ASSERT_EQ(named.size(), 3U) << name;
+        for (std::size_t i = 0; i < 3; ++i) {
+            const Segment segment = segments()[std::array<std::size_t, 3>{0, 2, 1}[i]];  // by label
+            EXPECT_EQ(named[i].label, segment.number) << name;
+            EXPECT_EQ(named[i].colour, segment.colour) << name;
+        }
+        EXPECT_EQ(named[0].name, "skull") << name;
+        EXPECT_EQ(named[1].name, "object 3") << name;
+        EXPECT_EQ(named[2].name, "left, \"upper\" lobe \\") << name;
+    }
+}
+
+TEST(NamedLabels, OfOtherFilesAreNone) {
+    const TestFolder folder;
+    const auto write = [&](const char* name, const char* text) { std::ofstream(folder / name, std::ios::binary) << text; };
+    write("a.csv", "label,title\n1,skull\n");
+    write("a.nii", "");
+    write("b.csv", "number,name,red,green,blue,isovalue,voxels\n1,skull\nx,,1,2,3\n\n7,liver,1,2,300,0,1\n7,again,1,2,3,0,1");
+    write("b.nii", "");
+    write("c.nrrd", "no header");
+    EXPECT_TRUE(named_labels(folder / "a.nii").empty());  // not our table
+    EXPECT_TRUE(named_labels(folder / "c.nrrd").empty());
+    EXPECT_TRUE(named_labels(folder / "missing.seg.nrrd").empty());
+    const std::vector<NamedLabel> named = named_labels(folder / "b.nii");  // whole lines alone, each label once
+    ASSERT_EQ(named.size(), 1U);
+    EXPECT_EQ(named[0].name, "liver");
+    EXPECT_EQ(named[0].colour, (std::array<std::uint8_t, 3>{1, 2, 255}));
+}
+
 TEST(Segmentation, SlicerReadsNamesColoursAndIsovalues) {
     const TestFolder folder;
     const Geometry geometry{.spacing = {0.5, 0.75, 2.5}, .origin = {1, 2, 3}, .space = "RAS", .unit = "mm"};

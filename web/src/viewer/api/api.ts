@@ -131,20 +131,21 @@ export class Api {
     }
   }
 
-  /** The file that `isoatlas extract` writes. */
-  async file(tau: number, target: SurfaceTarget, format: string, walls: ShellFilter = "all"): Promise<Blob> {
-    return (await this.request(`/api/surface?tau=${tau}${parameters(target)}${shell(walls)}&format=${format}`, "file")).blob();
+  /** The file that `isoatlas extract` writes. unit: of lengths, where the file of the volume says none. */
+  async file(tau: number, target: SurfaceTarget, format: string, walls: ShellFilter, unit: string | null): Promise<Blob> {
+    const query = `tau=${tau}${parameters(target)}${shell(walls)}&format=${format}${inUnit(unit)}`;
+    return (await this.request(`/api/surface?${query}`, "file")).blob();
   }
 
   /** The file that `isoatlas label` writes: of one object, or of all. */
-  async labels(tau: number, object: number | null, format: string, polarity?: Polarity): Promise<Blob> {
+  async labels(tau: number, object: number | null, format: string, unit: string | null, polarity?: Polarity): Promise<Blob> {
     const of = parameters(object === null ? null : { object }) + ofPolarity(polarity);
-    return (await this.request(`/api/label?tau=${tau}${of}&format=${format}`, "file")).blob();
+    return (await this.request(`/api/label?tau=${tau}${of}&format=${format}${inUnit(unit)}`, "file")).blob();
   }
 
   /** One file of several objects and contours, such as "2@1367", "v81275@40", "c1@20": "surfaces" or "segmentation". */
-  async several(kind: "surfaces" | "segmentation", objects: string[], contours: string[], format: string): Promise<Blob> {
-    const words = { object: objects.join(","), contour: contours.join(","), format };
+  async several(kind: SeveralKind, objects: string[], contours: string[], format: string, unit: string | null): Promise<Blob> {
+    const words = { object: objects.join(","), contour: contours.join(","), format, unit: unit ?? "" };
     const given = Object.entries(words).filter(([, word]) => word !== "");
     const query = given.map(([name, word]) => `${name}=${encodeURIComponent(word)}`).join("&");
     return (await this.request(`/api/${kind}?${query}`, "file")).blob();
@@ -191,6 +192,12 @@ export class Api {
     if (!response.ok) throw new ServerError(response.status, await messageOf(response));
     return response;
   }
+}
+
+export type SeveralKind = "surfaces" | "segmentation";
+
+function inUnit(unit: string | null): string {
+  return unit === null ? "" : `&unit=${encodeURIComponent(unit)}`;
 }
 
 function shell(walls: ShellFilter): string {

@@ -10,6 +10,7 @@ import { readScene, writeScene } from "./scene_file";
 import { EVERYTHING, polarityOfEntry, titleOf, targetOf } from "../api/entries";
 import { tableCsv } from "./table_csv";
 import { isDarkPage } from "../context/theme";
+import { declaredUnit, hasNoUnit } from "../../shared/units";
 
 export const SURFACES = ["stl", "ply", "obj", "glb", "vtp"];
 export const LABELS = ["nrrd", "nii.gz", "nii", "tif"];
@@ -26,7 +27,7 @@ export class Exporter {
     const { api, page } = this.context;
     if (format === "glb" && shown.walls === "all" && shown.entry !== EVERYTHING) return this.named(shown);
     return this.file(`${this.name}.${format}`, "writing the surface", () =>
-      api.file(shown.tau, targetOf(page, shown.entry), format, shown.walls),
+      api.file(shown.tau, targetOf(page, shown.entry), format, shown.walls, this.unit),
     );
   }
 
@@ -37,7 +38,7 @@ export class Exporter {
     const { api, page } = this.context;
     const all = shown.entry === EVERYTHING || isCavity(page, shown.entry);
     return this.file(`${this.name}.${format}`, "writing the labels", () =>
-      api.labels(shown.tau, all ? null : entryOf(page, shown.entry).id, format, polarityOfEntry(page, shown.entry)),
+      api.labels(shown.tau, all ? null : entryOf(page, shown.entry).id, format, this.unit, polarityOfEntry(page, shown.entry)),
     );
   }
 
@@ -46,7 +47,7 @@ export class Exporter {
     const { api, page } = this.context;
     const words = [`${referenceOf(page, shown.entry)}@${shown.tau}`];
     const [objects, contours] = isCavity(page, shown.entry) ? [[], words] : [words, []];
-    return this.file(`${this.name}.glb`, "writing the surface", () => api.several("surfaces", objects, contours, "glb"));
+    return this.file(`${this.name}.glb`, "writing the surface", () => api.several("surfaces", objects, contours, "glb", this.unit));
   }
 
   /** Every visible object at its isovalue, in one file: "surfaces" or "segmentation". */
@@ -58,7 +59,7 @@ export class Exporter {
     if (visible.length === 0) return this.nothingSelected("show an object first; the whole isosurface has a file of its own");
     const name = `${page.volume.name}-${kind === "surfaces" ? "objects" : "labels"}.${format}`;
     return this.file(name, kind === "surfaces" ? "writing the surfaces" : "writing the labels", () =>
-      api.several(kind, words(false), words(true), format),
+      api.several(kind, words(false), words(true), format, this.unit),
     );
   }
 
@@ -99,7 +100,23 @@ export class Exporter {
     const { page, history, viewport, scene } = this.context;
     const camera = { view: viewport.rig.view, flat: viewport.rig.isFlat, height: viewport.rig.height, cut: viewport.clippedHalfSpace };
     const size: [number, number] = [viewport.canvas.clientWidth, viewport.canvas.clientHeight];
-    return renderCommand(page, scene.drawnOf(history.now), camera, size, isDarkPage(), renderOptions(page, history.now));
+    const options = [...this.unitOption, ...renderOptions(page, history.now)];
+    return renderCommand(page, scene.drawnOf(history.now), camera, size, isDarkPage(), options);
+  }
+
+  /** What the files have to be told: the chosen unit, where the volume has none. */
+  private get unit(): string | null {
+    return declaredUnit(this.context.page.volume.unit);
+  }
+
+  /** Files of surfaces and labels keep the lengths of the volume. */
+  private get unitWords(): string {
+    const unit = this.unit ?? this.context.page.volume.unit;
+    return hasNoUnit(unit) ? ", lengths without a unit" : `, lengths in ${unit}`;
+  }
+
+  private get unitOption(): string[] {
+    return this.unit === null ? [] : [`--unit ${this.unit.replace("µ", "u")}`];
   }
 
   private get name(): string {
@@ -116,7 +133,7 @@ export class Exporter {
     try {
       if (meanwhile) this.context.notify(meanwhile);
       downloadBlob(await make(), name);
-      this.context.notify(`${name} saved`);
+      this.context.notify(`${name} saved${meanwhile === "" || meanwhile.includes("image") ? "" : this.unitWords}`);
     } catch (error) {
       this.context.reportError(error);
     }

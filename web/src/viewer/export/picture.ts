@@ -1,6 +1,7 @@
 // Image of the scene in any size, optionally with a scale bar and a legend.
 import { value } from "../../shared/format";
 import type { ViewerContext } from "../context/viewer_context";
+import { shownQuantity } from "../../shared/units";
 import { roundLength } from "../scene/scale_bar";
 import { noteOf } from "../panels/scene_panel";
 import { colourOfShown, titleOf } from "../api/entries";
@@ -40,8 +41,9 @@ function drawScale(
   { width, height }: PictureOptions,
   letter: number,
 ): void {
-  const length = roundLength(viewport.rig.height / 4);
-  const pixels = (height * length) / viewport.rig.height;
+  const { amount, unit } = shownQuantity(viewport.rig.height, page.volume.unit, 1);
+  const length = roundLength(amount / 4);
+  const pixels = (height * length) / amount;
   const [left, bottom] = [width - pixels - letter, height - 1.8 * letter];
   pen.lineWidth = Math.max(1, letter / 6);
   pen.beginPath();
@@ -51,7 +53,7 @@ function drawScale(
   pen.lineTo(left + pixels, bottom - letter / 2);
   pen.stroke();
   pen.textAlign = "center";
-  pen.fillText(`${value(length)} ${page.volume.unit ?? (length === 1 ? "voxel" : "voxels")}`, left + pixels / 2, height - letter / 2);
+  pen.fillText(`${value(length)} ${unit ?? (length === 1 ? "voxel" : "voxels")}`, left + pixels / 2, height - letter / 2);
   pen.textAlign = "left";
 }
 

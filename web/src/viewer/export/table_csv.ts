@@ -1,5 +1,6 @@
 // CSV table of the listed objects, one line each, with the isovalues in the scene.
 import { nameOf, referenceOf, voxelWord } from "../../shared/names";
+import { shownQuantity } from "../../shared/units";
 import { branchOf, entryOf, type Page } from "../../shared/page";
 import type { State } from "../state/state";
 
@@ -21,7 +22,7 @@ const COLUMNS = [
   "shown_at",
 ];
 
-/** Entries of the page and further objects of the scene. Volumes are in the unit of the file, or in voxels. */
+/** Entries of the page and further objects of the scene. Volumes are in the unit of the file or the chosen one, or in voxels. */
 export function tableCsv(page: Page, state: State): string {
   const further = state.shown.map(({ entry }) => entry).filter((i) => i >= page.entries.length);
   const lines = [...page.entries.keys(), ...further].map((i) => {
@@ -29,7 +30,7 @@ export function tableCsv(page: Page, state: State): string {
     const branch = branchOf(page, entry.branch);
     const name = (k: number): string => (k >= 0 ? nameOf(page, k) : "");
     const shown = state.shown.find((one) => one.entry === i);
-    const unit = page.volume.unit ? `${page.volume.unit}³` : "voxel";
+    const { amount, unit } = shownQuantity(entry.measure, page.volume.unit, 3);
     return [
       nameOf(page, i),
       referenceOf(page, i),
@@ -39,8 +40,8 @@ export function tableCsv(page: Page, state: State): string {
       branch.appears,
       branch.merges,
       entry.voxels,
-      entry.measure,
-      unit,
+      amount,
+      unit ? `${unit}³` : "voxel",
       entry.tunnels,
       entry.cavities,
       name(entry.inside),

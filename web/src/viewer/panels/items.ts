@@ -1,6 +1,7 @@
 // An object in a list, as a row or a card with a picture. A click isolates it; shift-click or its checkbox adds it.
+import { alsoAt } from "../../shared/cards";
 import { html } from "../../shared/dom";
-import { volume } from "../../shared/format";
+import { value, volume } from "../../shared/format";
 import { placeOf, rangeOf, reasonOf, shapeOf, valuesOf } from "../../shared/names";
 import { rangeBar } from "../../shared/overview";
 import { entryOf, type Page } from "../../shared/page";
@@ -34,9 +35,20 @@ export function card(page: Page, i: number, selector: ObjectSelector, pictures: 
   picture.addEventListener("click", (event) => choose(event, i, selector));
   const branch = branchOfShown(page, i);
   const bar = branch ? html("div", { class: "bar", title: `exists: ${rangeOf(branch, page)}` }, rangeBar(page, i)) : null;
+  const also = html("span", { class: "also" }, ...alsoLines(page, i, selector));
   const add = html("label", { class: "add" }, box);
-  const element = html("li", { class: "card", style: `--colour:${colourOf(page, i)}` }, picture, bar, add, button);
+  const element = html("li", { class: "card", style: `--colour:${colourOf(page, i)}` }, picture, bar, add, button, also);
   return { element, box, button };
+}
+
+/** Its lines at other isovalues, where it looks much the same: a click isolates one. */
+function alsoLines(page: Page, i: number, selector: ObjectSelector): HTMLElement[] {
+  if (i === EVERYTHING || i >= page.entries.length) return [];
+  return alsoAt(page, i).flatMap(({ tau, why, entry }) => {
+    if (entry === undefined) return [];
+    const click = (event: Event): void => choose(event, entry, selector);
+    return [html("button", { type: "button", title: why, click }, `also at ${value(tau)}: ${titleOf(page, entry).toLowerCase()}`)];
+  });
 }
 
 function controls(page: Page, i: number, selector: ObjectSelector, ...words: Node[]): { box: HTMLInputElement; button: HTMLButtonElement } {

@@ -21,11 +21,14 @@ export class ItemsTab {
     private readonly make: (number: number) => Item,
   ) {}
 
-  fill({ objects, cavities, others }: SearchResult): void {
+  fill({ objects, cards, background, cavities, others }: SearchResult): void {
+    const isOpen = cards.length === 0 || this.panel.querySelector("details.field")?.hasAttribute("open") === true;
+    const field = this.kind === "rows" || background.length === 0 ? [] : [foldedField(this.listOf(background), isOpen)];
     this.panel.replaceChildren(
-      this.listOf([...objects, EVERYTHING]),
+      this.listOf([...(this.kind === "rows" ? objects : cards), EVERYTHING]),
       ...(others.length > 0 ? [html("h2", {}, "In the scene, but not listed"), this.listOf(others)] : []),
       ...(cavities.length > 0 ? [html("h2", {}, "Cavities"), this.listOf(cavities)] : []),
+      ...field,
     );
   }
 
@@ -83,4 +86,9 @@ export class ItemsTab {
     this.items.set(number, item);
     return item;
   }
+}
+
+/** The box that was scanned, more than what is in it. */
+function foldedField(list: HTMLElement, open: boolean): HTMLElement {
+  return html("details", { class: "field", open }, html("summary", {}, "Outline of the scanned field"), list);
 }

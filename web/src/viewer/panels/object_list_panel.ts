@@ -6,7 +6,7 @@ import { count, plural } from "../../shared/format";
 import { commandList } from "../../shared/commands";
 import { ANY, CHOICE, commandOf, isSelection, selectionOptions, TAB, type Choice, type TabName } from "../state/selection";
 import { selectedOf, type ViewerContext } from "../context/viewer_context";
-import { find, type SearchResult } from "./object_search";
+import { find, NOTHING_FOUND, type SearchResult } from "./object_search";
 import { card, row } from "./items";
 import { ItemsTab } from "./items_tab";
 import { Pictures } from "../api/pictures";
@@ -36,7 +36,7 @@ export class ObjectListPanel {
   private readonly finder = html("div", { class: "finder" }, this.text, this.order);
   private chosen: number[] = [];
   private kept = 0;
-  private found: SearchResult = { objects: [], cavities: [], others: [] };
+  private found: SearchResult = NOTHING_FOUND;
   /** key of the last search: scene, text, order and choice */
   private sought = "";
   /** tabs that do not show the current result yet */

@@ -1,5 +1,6 @@
 // Measures of an object at its current isovalue, computed by the server.
 import { area, count, length, plural, value, volume } from "../../shared/format";
+import { countsVoxels } from "../../shared/units";
 import { entryOf, type Page } from "../../shared/page";
 import { isSuperseded, type Measures } from "../api/api";
 import type { ViewerContext } from "../context/viewer_context";
@@ -32,7 +33,7 @@ export async function measuredFacts({ api, page }: ViewerContext, shown: Shown):
 export function factsOf(there: Measures, id: number, tau: number, unit: string | null, voxel: number): [name: string, text: string][] {
   return [
     [`at ${value(tau)}`, `${there.id === id ? "" : "part of a larger object: "}${sizeOf(there, unit, voxel)}`],
-    ["enclosed volume", unit === null ? plural(Number(there.volume.toPrecision(3)), "voxel") : volume(there.volume, unit)],
+    ["enclosed volume", countsVoxels(unit) ? plural(Number(there.volume.toPrecision(3)), "voxel") : volume(there.volume, unit)],
     ["area", area(there.area, unit)],
     ["diameters", diametersOf(there, unit)],
     ["sphericity", value(there.sphericity)],
@@ -52,7 +53,7 @@ const MIN_RATIO = 0.8;
 /** Where only wide bounds of the number of voxels are known, the enclosed volume stands for it. */
 function sizeOf({ voxels: [min, max], volume: enclosed }: Measures, unit: string | null, voxel: number): string {
   const voxels = min === max ? plural(max, "voxel") : `${count(min)} to ${plural(max, "voxel")}`;
-  if (unit === null) return min === max ? voxels : `about ${plural(Number(enclosed.toPrecision(3)), "voxel")}`;
+  if (countsVoxels(unit)) return min === max ? voxels : `about ${plural(Number(enclosed.toPrecision(3)), "voxel")}`;
   if (min === max) return `${volume(max * voxel, unit)}, ${voxels}`;
   return min >= MIN_RATIO * max ? `about ${volume(enclosed, unit)}, ${voxels}` : `about ${volume(enclosed, unit)}`;
 }

@@ -3,11 +3,13 @@ import { html } from "../../shared/dom";
 import { count, plural, value, volume } from "../../shared/format";
 import { contentsOf, entriesOf, inOrderOfMerges, placeOf, rangeOf, shapeOf } from "../../shared/names";
 import { branchOf, entryOf } from "../../shared/page";
+import { countsVoxels } from "../../shared/units";
 import type { ViewerContext } from "../context/viewer_context";
 import { Latest } from "../api/latest";
 import { measuredFacts, isMeasuredAtEntry } from "./object_measures";
 import { branchOfShown, EVERYTHING, titleOf } from "../api/entries";
 import type { Shown, State } from "../state/state";
+import { UNIT } from "../state/unit";
 import { TitleEditor } from "./title_editor";
 
 type Fact = [name: string, what: (Node | string)[]];
@@ -45,7 +47,7 @@ export class ObjectPanel {
     if (shown.entry !== this.entry || isMeasured !== this.isMeasured) this.describe(shown.entry, isMeasured);
     this.entry = shown.entry;
     this.isMeasured = isMeasured;
-    if (!dragging) this.measured.request(shown, `${shown.entry} ${shown.tau}`);
+    if (!dragging) this.measured.request(shown, `${shown.entry} ${shown.tau} ${UNIT.of(state)}`);
   }
 
   /** isMeasured: the measures already show the object at its recommended isovalue. */
@@ -85,8 +87,9 @@ export class ObjectPanel {
   private bestFacts(i: number): Fact[] {
     const { page } = this.context;
     const { measure, voxels } = entryOf(page, i);
+    const { unit } = page.volume;
     return [
-      ["size at best isovalue", [`${volume(measure, page.volume.unit)}${page.volume.unit === null ? "" : `, ${plural(voxels, "voxel")}`}`]],
+      ["size at best isovalue", [`${volume(measure, unit)}${countsVoxels(unit) ? "" : `, ${plural(voxels, "voxel")}`}`]],
       ["topology at best isovalue", [shapeOf(page, i)]],
     ];
   }

@@ -1,4 +1,5 @@
 // Filters and sorts the chosen objects. Numbers are those of entries (api/catalogue.ts).
+import { cardsOf } from "../../shared/cards";
 import { orders } from "../../shared/orders";
 import { isCavity, numberOf, placeOf, reasonOf, referenceOf, voxelWord } from "../../shared/names";
 import { entryOf, type Page } from "../../shared/page";
@@ -14,10 +15,16 @@ export interface SearchOptions {
 
 export interface SearchResult {
   objects: number[];
+  /** those of the objects that have a card; all that a text finds, and all that are in the scene */
+  cards: number[];
+  /** of those with a card: the outline of the scanned field, apart from them */
+  background: number[];
   cavities: number[];
   /** in the scene, but not among the chosen */
   others: number[];
 }
+
+export const NOTHING_FOUND: SearchResult = { objects: [], cards: [], background: [], cavities: [], others: [] };
 
 /** chosen: objects, without cavities. */
 export function find(page: Page, chosen: number[], shown: State["shown"], wanted: SearchOptions): SearchResult {
@@ -28,7 +35,10 @@ export function find(page: Page, chosen: number[], shown: State["shown"], wanted
   const isMatch = (i: number): boolean => words.every((word) => isAbout(page, i, word));
   const matching = (numbers: number[]): number[] => (words.length === 0 ? numbers : numbers.filter(isMatch));
   const sorted = (numbers: number[]): number[] => sortedBy(page, matching(numbers), wanted.order);
-  return { objects: sorted(chosen), cavities: sorted(cavities), others: matching(others) };
+  const objects = sorted(chosen);
+  const inScene = new Set(shown.map(({ entry }) => entry));
+  const { cards, background } = cardsOf(page, objects, (i) => words.length > 0 || inScene.has(i));
+  return { objects, cards, background, cavities: sorted(cavities), others: matching(others) };
 }
 
 /** A number matches that of the object, v and a number its voxel, as on the command line; other words match as substrings. */

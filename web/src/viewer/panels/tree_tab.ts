@@ -6,7 +6,7 @@ import { describe, entriesOf } from "../../shared/names";
 import { keptParent, overview, sideMargin } from "../../shared/overview";
 import { branchOf, entryOf, type Page } from "../../shared/page";
 import type { Catalogue } from "../api/catalogue";
-import type { SearchResult } from "./object_search";
+import { NOTHING_FOUND, type SearchResult } from "./object_search";
 import type { ObjectSelector } from "./items";
 import { branchOfShown } from "../api/entries";
 import type { State } from "../state/state";
@@ -23,7 +23,7 @@ export class TreeTab {
   readonly panel = html("div", {}, html("label", { class: "budget" }, "branches ", this.budget), this.words, this.place);
   /** positions in page.branches whose subtrees are hidden */
   private readonly folded = new Set<number>();
-  private found: SearchResult = { objects: [], cavities: [], others: [] };
+  private found: SearchResult = NOTHING_FOUND;
   private state: State | null = null;
   private width = 0;
   private readonly keys: TreeKeys;

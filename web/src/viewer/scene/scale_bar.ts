@@ -1,6 +1,7 @@
-// A scale bar of a round length, in the unit of the file.
+// A scale bar of a round length, in the unit of the file or in the chosen one.
 import { html } from "../../shared/dom";
 import { value } from "../../shared/format";
+import { shownQuantity } from "../../shared/units";
 
 const MAX_SHARE = 0.25;
 
@@ -23,8 +24,9 @@ export class ScaleBar {
 
   /** length: physical length of `pixels`. */
   show(length: number, pixels: number): void {
-    const bar = roundLength(length * MAX_SHARE);
-    this.bar.style.width = `${(pixels * bar) / length}px`;
-    this.text.textContent = `${value(bar)} ${this.unit ?? (bar === 1 ? "voxel" : "voxels")}`;
+    const { amount, unit } = shownQuantity(length, this.unit, 1);
+    const bar = roundLength(amount * MAX_SHARE);
+    this.bar.style.width = `${(pixels * bar) / amount}px`;
+    this.text.textContent = `${value(bar)} ${unit ?? (bar === 1 ? "voxel" : "voxels")}`;
   }
 }

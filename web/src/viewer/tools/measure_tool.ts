@@ -1,10 +1,12 @@
 // Measures distances and angles: positions are clicked on surfaces and slices, or taken from the crosshair.
 import { html } from "../../shared/dom";
 import { value } from "../../shared/format";
+import { shownQuantity } from "../../shared/units";
 import { onClick, placeOn } from "../context/clicks";
 import type { ViewerContext } from "../context/viewer_context";
 import { observePart } from "../context/observe";
 import type { Triple } from "../state/grid";
+import { UNIT } from "../state/unit";
 import { MeasureDrawing } from "../scene/measure_drawing";
 import { angleOf, lengthOf, MEASURES, type Measure } from "../state/measures";
 
@@ -29,6 +31,7 @@ export class MeasureTool {
     this.drawing = new MeasureDrawing(context.viewport);
     tools.append(this.element);
     observePart(context.history, MEASURES, () => this.show());
+    observePart(context.history, UNIT, () => this.show());
     this.addActions();
     this.listenToClicks();
   }
@@ -49,8 +52,8 @@ export class MeasureTool {
 
   textOf(measure: Measure): string {
     if (measure.length === 3) return `${value(angleOf(measure))}°`;
-    const length = lengthOf(measure);
-    return `${value(length)} ${this.context.page.volume.unit ?? (length === 1 ? "voxel" : "voxels")}`;
+    const { amount, unit } = shownQuantity(lengthOf(measure), this.context.page.volume.unit, 1);
+    return `${value(amount)} ${unit ?? (amount === 1 ? "voxel" : "voxels")}`;
   }
 
   private get measures(): Measure[] {

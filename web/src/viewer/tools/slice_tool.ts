@@ -12,7 +12,9 @@ import { CrosshairLines } from "../scene/crosshair_lines";
 import { SlicePlanes } from "../scene/slice_planes";
 import { CROSSHAIR, GREY, greyRange, middleOf, PLANES, SLICES } from "../state/slice_state";
 import { SliceCache } from "../api/slice_cache";
+import { shownQuantity } from "../../shared/units";
 import { SliceView } from "../scene/slice_view";
+import { UNIT } from "../state/unit";
 import type { State } from "../state/state";
 import { valueAt } from "../api/wire_samples";
 
@@ -26,7 +28,8 @@ export function crosshairOf({ page, history }: Pick<ViewerContext, "page" | "his
 
 /** Text of a physical position. */
 export function placeText({ page }: Pick<ViewerContext, "page">, place: readonly number[]): string {
-  return `${place.map(value).join(", ")} ${page.volume.unit ?? ""}`.trimEnd();
+  const shown = place.map((length) => shownQuantity(length, page.volume.unit, 1));
+  return `${shown.map(({ amount }) => value(amount)).join(", ")} ${shown[0]?.unit ?? ""}`.trimEnd();
 }
 
 export class SliceTool {
@@ -100,6 +103,7 @@ export class SliceTool {
     });
     observePart(history, PLANES, () => this.redraw());
     observePart(history, GREY, () => this.redraw());
+    observePart(history, UNIT, () => this.redraw());
     observePart(history, CROSSHAIR, () => {
       this.redraw();
       if (SLICES.of(history.now)) this.locateBar.update(crosshairOf(this.context));

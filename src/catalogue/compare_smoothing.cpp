@@ -1,0 +1,52 @@
+#include "catalogue/compare_smoothing.h"
+
+#include <algorithm>
+
+#include "base/cancel.h"
+#include "base/phase.h"
+#include "isoatlas/cut.h"
+#include "isoatlas/filter.h"
+#include "isoatlas/objects.h"
+
+namespace isoatlas {
+namespace {
+
+constexpr std::int64_t kMostBytes = std::int64_t{1} << 29;  ///< of samples: two volumes are held
+
+ShownSmoothing shown_at(const Volume& volume, const CutOptions& options, double tau, const PageOptions& page, const Context& context) {
+    stop_if_cancelled(context);
+    const Cut at = cut(volume, tau, options, context);
+    ShownSmoothing shown{.objects = std::ssize(at.objects)};
+    for (const CutObject& object : at.objects) shown.tunnels += object.b1;
+    PageOptions still = page;
+    still.frames = 1;
+    const Colour colour = colour_of_object(1);
+    if (volume.info.extent.rank == 2) {
+        shown.picture = draw_still(volume, tau, colour, still, context);
+        return shown;
+    }
+    const ExtractOptions extracted{.interpolant = options.interpolant, .tunnel_height = options.tunnel_height, .surface = {.ids = false}};
+    shown.picture = draw_turntable(extract(volume, tau, extracted, context), colour, still, context);
+    return shown;
+}
+
+}  // namespace
+
+std::optional<SmoothingComparison> compare_smoothing(const Atlas& atlas, double sigma, const PageOptions& options, const Context& context) {
+    const VolumeInfo& info = atlas.info();
+    if (info.extent.voxels() * static_cast<std::int64_t>(size_of(info.type)) > kMostBytes) return std::nullopt;
+    Context silent = context;
+    silent.progress = nullptr;
+    const ObjectTable table = atlas.objects({.top = 8}, silent);
+    if (table.entries.empty()) return std::nullopt;
+    const auto first = std::ranges::find_if(table.entries, [&](const ObjectEntry& entry) { return !is_background(entry, info.extent); });
+    SmoothingComparison comparison{.tau = (first == table.entries.end() ? table.entries.front() : *first).best_tau};
+    const CutOptions cut_options{.interpolant = atlas.interpolant(), .tunnel_height = atlas.tunnel_height()};
+    report(context, only_phase("smooth"), 0);
+    const Volume volume = atlas.volume(silent);
+    comparison.as_is = shown_at(volume, cut_options, comparison.tau, options, silent);
+    comparison.smooth = shown_at(gaussian_filter(volume, sigma, silent), cut_options, comparison.tau, options, silent);
+    return comparison;
+}
+
+}  // namespace isoatlas

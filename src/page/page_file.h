@@ -1,0 +1,20 @@
+// A page as a file: the bundle of web/ with its data.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "isoatlas/page.h"
+
+namespace isoatlas {
+
+/// Throws Error{usage}.
+void check_page_options(const PageOptions& options);
+
+/// Throws Error{unsupported} when there are no pages in this program.
+void check_has_pages();
+
+/// json: the data. Returns the size in bytes. Throws Error: resource.
+std::int64_t write_page_file(const std::string& path, const std::string& json);
+
+}  // namespace isoatlas
