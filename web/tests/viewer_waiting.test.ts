@@ -4,10 +4,10 @@ import { canServe, Served } from "./viewer_harness";
 
 describe.skipIf(!canServe)("the viewer before its store is built", () => {
   it("shows the progress of the build, then the atlas, without a reload", async () => {
-    const slow = ["--threads", "1", "--memory", "90M"]; // enough to be seen
+    const slow = ["--threads", "1"]; // enough to be seen; no budget, which a sanitizer exceeds by itself
     const served = await Served.building(["noise", "--size", "144", "--quantise", "8"], slow);
     const tab = await served.browser.newPage();
-    tab.setDefaultTimeout(1_200_000); // on a busy machine, under a sanitizer
+    tab.setDefaultTimeout(600_000); // on a busy machine, under a sanitizer
     const titles: string[] = [];
     await tab.exposeFunction("heard", (text: string) => titles.push(text));
     await tab.addInitScript(() => {
@@ -21,7 +21,7 @@ describe.skipIf(!canServe)("the viewer before its store is built", () => {
     expect(titles.some((title) => /^building \d+ %$/.test(title))).toBe(true);
     expect(await tab.locator(".waiting").count()).toBe(0);
     await served.close();
-  }, 1_200_000);
+  }, 600_000);
 
   it("shows why a build has failed, and what to do", async () => {
     const served = await Served.building(["demo"], ["--gaussian", "1e9"]);
