@@ -11,18 +11,18 @@ namespace {
 
 /// Start of each phase as a fraction of the build time: read, classify, two without progress, trees, zones, objects, pack.
 constexpr std::array kShares{0.0, 0.03, 0.17, 0.17, 0.17, 0.25, 0.4, 0.83, 1.0};
-constexpr int kRepeated = 6;                             ///< from classify to objects, once for each polarity
+constexpr int kPhasesOfPass = 6;                         ///< from classify to objects, once for each polarity
 constexpr double kOnePass = kShares[7] - kShares[1];     ///< of a build of one polarity
 constexpr double kEnoughToTell = 0.02, kShortest = 0.5;  ///< min fraction and seconds for an estimate
 
 /// Fraction of the whole build.
 double fraction_of(const Progress& progress) {
     const double part = std::clamp(progress.fraction, 0.0, 1.0);
-    const int passes = (progress.phase_count - 2) / kRepeated, last = progress.phase_count - 1;
-    if (passes < 1 || progress.phase_count != 2 + passes * kRepeated) return 0;
+    const int passes = (progress.phase_count - 2) / kPhasesOfPass, last = progress.phase_count - 1;
+    if (passes < 1 || progress.phase_count != 2 + passes * kPhasesOfPass) return 0;
     const int index = std::clamp(progress.phase_index, 0, last);
-    const int pass = index == 0 ? 0 : index == last ? passes - 1 : (index - 1) / kRepeated;
-    const auto phase = static_cast<std::size_t>(index - pass * kRepeated);
+    const int pass = index == 0 ? 0 : index == last ? passes - 1 : (index - 1) / kPhasesOfPass;
+    const auto phase = static_cast<std::size_t>(index - pass * kPhasesOfPass);
     return (std::lerp(kShares[phase], kShares[phase + 1], part) + pass * kOnePass) / (1 + (passes - 1) * kOnePass);
 }
 
