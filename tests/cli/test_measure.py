@@ -85,6 +85,30 @@ class Measure(harness.CliTest):
         self.assertEqual(porosity[0], 0)
         self.assertEqual(len(self.document("noise.nrrd", "--tau", "12", "--top", "2")["objects"]), 2)
 
+    def test_objects_that_are_named(self):
+        table = self.document("shells.nrrd", "--no-percolation")["objects"]
+        self.assertEqual([each["reference"] for each in table], [str(i + 1) for i in range(len(table))])
+        self.assertGreater(len(table), 1)
+        self.run_ok("build", "shells.nrrd", "--polarity", "both", "-o", "both.atlas")
+        for file in ("shells.nrrd", "both.atlas"):
+            named = self.document(file, "--object", "2", "--object", "1")["objects"]
+            for found, entry in zip(named, (table[1], table[0]), strict=True):
+                self.assertEqual({**found, "note": ""}, {**entry, "note": ""})
+            low = self.document(file, "--polarity", "low", "--top", "2")["objects"][1]
+            self.assertEqual(low["reference"], "low2")
+            self.assertEqual({**self.document(file, "--object", "low2")["objects"][0], "note": ""}, {**low, "note": ""})
+        at = self.document("shells.nrrd", "--tau", "0.5")["objects"]
+        for typed in (["--object", f"v{at[1]['id']}@0.5"], ["--object", f"v{at[1]['id']}", "--tau", "0.5"]):
+            one = self.document("shells.nrrd", *typed)
+            self.assertIsNone(one["percolation"])
+            self.assertEqual({**one["objects"][0], "reference": None}, at[1])
+        line = self.run_ok("measure", "shells.nrrd", "--object", "low2").stdout.splitlines()
+        self.assertEqual(len(line), 2)
+        self.assertTrue(line[1].lstrip().startswith("low2 "), line)
+        for wrong in (["--object", "c1"], ["--object", "1", "--object", "low2"], ["--object", "1", "--min-voxels", "3"]):
+            self.run_error(2, "measure", "shells.nrrd", *wrong)
+        self.run_error(6, "measure", "shells.nrrd", "--object", "99")
+
     def test_percolation_is_where_an_object_reaches_both_ends(self):
         measured = self.document("noise.nrrd")
 

@@ -57,6 +57,7 @@ void objects_options(CLI::App& app, Arguments& arguments, Typed& typed) {
 
 void measure_options(CLI::App& app, Arguments& arguments, Typed& typed) {
     add_tau(app, typed, "Measure every object at this isovalue");
+    add_objects(app, typed, "Only these objects, each at an isovalue; default: its best one");
     app.add_option("--top", typed.selection.top,
                    "At most N objects (without --tau: 24); with a percent sign: keep the first P percent of all objects")
         ->type_name("N|P%");

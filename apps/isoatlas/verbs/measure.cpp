@@ -5,7 +5,8 @@
 
 #include <fmt/format.h>
 
-#include "data/source.h"
+#include "data/label_directory.h"
+#include "data/sides.h"
 #include "options/object_reference.h"
 #include "text/document.h"
 #include "text/interrupt.h"
@@ -25,9 +26,11 @@ constexpr std::int64_t kDefaultTop = 24;
 struct Measured {
     bool are_labels = false;    ///< the labels of a label volume; nothing of the volume then
     std::optional<double> tau;  ///< stored; none: each object at its best isovalue
+    Polarity polarity = Polarity::high;
+    bool is_named = false;  ///< the objects that --object names
     std::vector<ObjectMeasures> objects;
-    std::vector<std::string> notes;  ///< of the objects of the table
-    std::vector<double> isovalues;   ///< stored, of the porosity
+    std::vector<std::string> references, notes;  ///< of the objects of the table, or of those that are named; else empty
+    std::vector<double> isovalues;               ///< stored, of the porosity
     std::vector<std::int64_t> below;
     std::int64_t below_tau = 0;
     std::optional<Percolation> percolation;
@@ -47,10 +50,43 @@ void measure_table(const Arguments& arguments, Source& source, Measured& measure
     for (const auto& [tau, ids] : at) {
         for (const ObjectMeasures& object : source.measure(tau, ids)) found[{tau, object.id}] = object;
     }
+    const std::string side = polarity_of(source.info()) == Polarity::low ? "low" : "";
     for (const ObjectEntry& entry : table.entries) {
         measured.objects.push_back(found.at({entry.best_tau, entry.id}));
         measured.notes.push_back(entry.note);
+        if (!arguments.selects) measured.references.push_back(side + std::to_string(measured.objects.size()));
     }
+}
+
+/// Each at its isovalue, in the order of the references.
+void measure_named(const Arguments& arguments, Sides& sides, Measured& measured) {
+    const std::vector<ChosenObject> chosen = sides.find(arguments.objects, arguments.tau);
+    measured.is_named = true;
+    for (const ChosenObject& object : chosen) {
+        if (object.is_contour) {
+            throw Error(ErrorKind::usage,
+                        {.file = arguments.file,
+                         .what = reference_of(object) + " is a cavity, which has no measures of its own",
+                         .next = "isoatlas objects " + shell_word(arguments.file) + " --polarity low lists it as an object of low values"});
+        }
+        if (object.polarity != chosen[0].polarity) {
+            throw Error(ErrorKind::usage, {.file = arguments.file,
+                                           .what = "objects of high and of low values are measured one after the other",
+                                           .next = "two commands"});
+        }
+        std::vector<ObjectMeasures> found = sides.source(object).measure(object.tau, {object.voxel});
+        measured.objects.push_back(std::move(found.at(0)));
+        measured.polarity = object.polarity;
+        measured.references.push_back(reference_of(object, true));
+        measured.notes.push_back(object.name);
+    }
+}
+
+void measure_labels(const Arguments& arguments, Source& source, Measured& measured) {
+    measured.objects = source.measure_labels();
+    if (arguments.objects.empty()) return;
+    const std::vector<std::int64_t> labels = LabelDirectory(arguments, source).find(arguments.objects);
+    std::erase_if(measured.objects, [&](const ObjectMeasures& object) { return std::ranges::find(labels, object.id) == labels.end(); });
 }
 
 /// Isovalues of the curve of porosity: every integer where there are few, else as many even steps.
@@ -90,6 +126,7 @@ void print_json(Terminal& terminal, Source& source, const Measured& measured, st
     add_reads(head, source.reads());
     print(terminal, head, "objects", shown, [&](std::int64_t i) {
         Json json = measures_json(measured.objects[static_cast<std::size_t>(i)], info);
+        json["reference"] = measured.references.empty() ? Json(nullptr) : Json(measured.references[static_cast<std::size_t>(i)]);
         json["note"] = measured.notes.empty() ? "" : measured.notes[static_cast<std::size_t>(i)];
         return json;
     });
@@ -137,7 +174,9 @@ void print_objects(Terminal& terminal, const VolumeInfo& info, const Measured& m
     Table text(columns);
     for (std::size_t i = 0; i < static_cast<std::size_t>(shown); ++i) {
         const ObjectMeasures& object = measured.objects[i];
-        std::vector<std::string> row{fmt::format("{}", measured.are_labels ? object.id : static_cast<std::int64_t>(i) + 1)};
+        std::vector<std::string> row{measured.are_labels ? std::to_string(object.id)
+                                     : measured.is_named ? measured.references[i]
+                                                         : std::to_string(i + 1)};
         if (!measured.are_labels) row.push_back(voxel_word(object.id));
         if (has_taus) row.push_back(scale.brief(object.tau));
         row.insert(row.end(), {measure_text(object.volume * unit.factor), measure_text(object.area), measure_text(object.feret.max),
@@ -179,28 +218,47 @@ void print_volume(Terminal& terminal, const VolumeInfo& info, const Measured& me
     terminal.out() << fmt::format("low values percolate above {}\n", along_axes(measured.percolation->low, info));
 }
 
-}  // namespace
-
-int run_measure(const Arguments& arguments, Terminal& terminal) {
-    if (arguments.tau && arguments.selects) {
-        throw Error(ErrorKind::usage, {.what = "a selection applies to the table of best isovalues, not to one isovalue",
-                                       .next = "omit --tau, or the selection"});
+void check_measure(const Arguments& arguments) {
+    if (arguments.selects && (arguments.tau || !arguments.objects.empty())) {
+        throw Error(ErrorKind::usage,
+                    {.what = "a selection applies to the table of best isovalues, not to one isovalue or to named objects",
+                     .next = "omit --tau and --object, or the selection"});
     }
     if (!arguments.output.empty()) check_output(arguments, {".csv"});
-    Source source(arguments, terminal);
-    if (arguments.thickness && source.info().extent.rank == 2)
-        throw Error(ErrorKind::usage, {.file = arguments.file, .what = "--thickness is of 3D volumes, this one is 2D", .next = "omit it"});
+}
+
+Measured measure(const Arguments& arguments, Sides& sides) {
+    Source& source = sides.main();
     Measured measured;
+    measured.polarity = sides.polarity();
     measured.are_labels = arguments.inputs.are_labels && !arguments.tau && !arguments.selects;
     if (measured.are_labels) {
-        measured.objects = source.measure_labels();
-    } else if (arguments.tau) {
+        measure_labels(arguments, source, measured);
+        return measured;
+    }
+    if (!arguments.objects.empty()) {
+        measure_named(arguments, sides, measured);
+        return measured;
+    }
+    if (arguments.tau) {
         measured.tau = source.tau();
         measured.objects = source.measure(*measured.tau, {});
     } else {
         measure_table(arguments, source, measured);
     }
-    if (!measured.are_labels) measure_volume(arguments, source, measured);
+    measure_volume(arguments, source, measured);
+    return measured;
+}
+
+}  // namespace
+
+int run_measure(const Arguments& arguments, Terminal& terminal) {
+    check_measure(arguments);
+    Sides sides(arguments, terminal);
+    if (arguments.thickness && sides.main().info().extent.rank == 2)
+        throw Error(ErrorKind::usage, {.file = arguments.file, .what = "--thickness is of 3D volumes, this one is 2D", .next = "omit it"});
+    const Measured measured = measure(arguments, sides);
+    Source& source = sides.source(measured.polarity);
     stop_if_interrupted();
     const auto all = static_cast<std::int64_t>(measured.objects.size());
     if (!arguments.output.empty()) {
@@ -218,9 +276,12 @@ int run_measure(const Arguments& arguments, Terminal& terminal) {
     if (shown < all) terminal.say(fmt::format("and {} more", count_text(all - shown)));
     print_volume(terminal, source.info(), measured);
     if (arguments.output.empty()) {
-        const std::string tau = arguments.tau ? fmt::format(" --tau {}", *arguments.tau) : "";
+        std::string what = measured.tau ? fmt::format(" --tau {}", *arguments.tau) : "";
+        if (measured.is_named) {
+            for (const std::string& reference : measured.references) what += " --object " + reference;
+        }
         terminal.next(fmt::format("isoatlas measure {}{}{} -o measures.csv    # all measures of all of them", shell_word(arguments.file),
-                                  reading_options(arguments), tau));
+                                  reading_options(arguments), what));
     }
     return 0;
 }
