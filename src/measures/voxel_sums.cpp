@@ -7,6 +7,7 @@
 
 #include "base/cancel.h"
 #include "base/parallel.h"
+#include "field/negate.h"
 #include "measures/symmetric_axes.h"
 #include "measures/vectors.h"
 
@@ -105,15 +106,18 @@ void MeasuredVoxels::find_places() {
     sums_.resize(places_.size());
 }
 
-/// Voxels begin[0] .. end - 1 of a row; row[0]: the first of them.
+/// Voxels begin[0] .. end - 1 of a row; row[0]: the first of them. Sums are of the values of the file: negated ones of 32 bits are so far
+/// from 0 that sums of them would lose digits.
 template <class T>
 void MeasuredVoxels::add_run(const T* row, const Index3& begin, std::int64_t end, const Vec3& reference, VoxelSums& sums) const {
     VoxelSums run;
     const auto count = static_cast<std::size_t>(end - begin[0]), first = static_cast<std::size_t>(begin[0]);
     const double *middle = boxes_.middle[0].data() + first, *width = boxes_.width[0].data() + first;
-    double w = 0, wx = 0, wxx = 0, wv = 0, sum = 0, low = static_cast<double>(row[0]), high = low;
+    const bool is_low = info_.calibration.mirror.has_value();
+    const auto value_at = [&](std::size_t i) { return static_cast<double>(is_low ? negated_sample(row[i]) : row[i]); };
+    double w = 0, wx = 0, wxx = 0, wv = 0, sum = 0, low = value_at(0), high = low;
     for (std::size_t i = 0; i < count; ++i) {
-        const double x = middle[i] - reference[0], value = static_cast<double>(row[i]);
+        const double x = middle[i] - reference[0], value = value_at(i);
         w += width[i];
         wx += width[i] * x;
         wxx += width[i] * (x * x + width[i] * width[i] / 12);
@@ -126,7 +130,7 @@ void MeasuredVoxels::add_run(const T* row, const Index3& begin, std::int64_t end
     run.sum = sum, run.min = low, run.max = high;
     run.mean = std::clamp(wv / w, low, high);
     for (std::size_t i = 0; i < count; ++i) {
-        const double difference = static_cast<double>(row[i]) - run.mean;
+        const double difference = value_at(i) - run.mean;
         run.squares += width[i] * (difference * difference);
     }
     const bool flat = info_.extent.rank == 2;
@@ -182,16 +186,16 @@ void MeasuredVoxels::describe(std::size_t object, ObjectMeasures& measures) cons
     const bool flat = info_.extent.rank == 2;
     ISOATLAS_CHECK(sums.voxels == place.voxels);
     const auto count = static_cast<double>(sums.voxels);
-    const Calibration& calibration = info_.calibration;
+    Calibration calibration = info_.calibration;
+    calibration.mirror.reset();  // sums are of the values of the file
     measures.id = place.id;
     measures.voxels = sums.voxels;
     measures.voxel_volume = sums.weight * boxes_.skew;
-    const double sum = calibration.mirror ? *calibration.mirror * count - sums.sum : sums.sum;  // of the values of the file
     const double low = calibration.reported(sums.min), high = calibration.reported(sums.max);
     measures.values = {.mean = calibration.reported(std::clamp(sums.mean, sums.min, sums.max)),
                        .min = std::min(low, high),
                        .max = std::max(low, high),
-                       .sum = calibration.slope * sum + calibration.intercept * count,
+                       .sum = calibration.slope * sums.sum + calibration.intercept * count,
                        .deviation = calibration.reported_difference(std::sqrt(sums.squares / sums.weight))};
     const Vec3 mean = times(1 / sums.weight, sums.first);
     measures.centroid = plus(boxes_.origin, times(boxes_.direction, plus(reference_[object], mean)));

@@ -90,8 +90,8 @@ class Results(CliTest):
         self.assertEqual(table["branches"], 4)
         self.assertGreaterEqual(len(table["objects"]), 4)
         for entry in table["objects"]:
-            keys = {"id", "number", "name", "event", "appears", "merges", "best_tau", "chi", "b1", "b2", "tunnels", "cavities", "voxels", "measure",
-                    "hypervolume", "position", "position_physical", "note", "reason", "isovalues", "like"}
+            keys = {"id", "number", "reference", "name", "event", "appears", "merges", "best_tau", "chi", "b1", "b2", "tunnels", "cavities",
+                    "voxels", "measure", "hypervolume", "position", "position_physical", "note", "reason", "isovalues", "like"}
             self.assertEqual(set(entry), keys)
             at = self.run_json("objects", "figure.nrrd", "--tau", entry["best_tau"])["objects"]
             found = [o for o in at if o["id"] == entry["id"]]
