@@ -47,7 +47,7 @@ describe.skipIf(!canServe)("names and numbers of objects", () => {
     await tab.locator(".card .picture").nth(1).click();
     await tab.locator(".card").nth(3).getByRole("checkbox").check();
     const titles = await tab.locator(".card b").allInnerTexts();
-    const shown = [titles[1], titles[3]].map((text) => text.replace("Object ", ""));
+    const shown = [titles[1] ?? "", titles[3] ?? ""].map((text) => text.replace("Object ", ""));
     await tab.keyboard.press("s");
     for (const [button, format, verb] of [
       ["Save all surfaces", "glb", "extract"],

@@ -74,8 +74,8 @@ void measure_named(const Arguments& arguments, Sides& sides, Measured& measured)
                                            .what = "objects of high and of low values are measured one after the other",
                                            .next = "two commands"});
         }
-        std::vector<ObjectMeasures> found = sides.source(object).measure(object.tau, {object.voxel});
-        measured.objects.push_back(std::move(found.at(0)));
+        const std::vector<ObjectMeasures> found = sides.source(object).measure(object.tau, {object.voxel});
+        measured.objects.push_back(found.at(0));
         measured.polarity = object.polarity;
         measured.references.push_back(reference_of(object, true));
         measured.notes.push_back(object.name);
