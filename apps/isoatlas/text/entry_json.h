@@ -34,6 +34,19 @@ void add_isovalues(Json& json, const Entry& entry, const Scale& scale) {
     return list;
 }
 
+/// Of an object of the table.
+inline void add_isovalues_and_topology(Json& json, const ObjectTable& table, const ObjectEntry& entry, const Scale& scale) {
+    add_isovalues(json, entry, scale);
+    const std::optional<RecommendedIsovalue> best = isovalue_of(table, entry);
+    json["reason"] = best ? Json(name_of(best->reason)) : Json(nullptr);
+    json["isovalues"] = isovalues_json(isovalues_of(table.isovalues, entry.branch_top.number()), scale);
+    json["chi"] = 1 - entry.tunnels + entry.cavities;
+    json["b1"] = entry.tunnels;
+    json["b2"] = entry.cavities;
+    json["tunnels"] = entry.tunnels;
+    json["cavities"] = entry.cavities;
+}
+
 /// Prints the other recommended isovalues of an entry; nothing if there are none.
 /// entry: how it is called.
 inline void tell_isovalues(Terminal& terminal, const std::string& entry, const std::vector<RecommendedIsovalue>& others,

@@ -39,15 +39,7 @@ Json entry_json(const ObjectTable& table, std::size_t i, const VolumeInfo& info,
     const std::int64_t number = directory.number_of(entry);
     add_number_and_name(json, number, directory.name_of(entry));
     json["reference"] = with_polarity(number == 0 ? voxel_word(entry.id) : std::to_string(number), polarity_of(info));
-    add_isovalues(json, entry, scale);
-    const std::optional<RecommendedIsovalue> best = isovalue_of(table, entry);
-    json["reason"] = best ? Json(name_of(best->reason)) : Json(nullptr);
-    json["isovalues"] = isovalues_json(isovalues_of(table.isovalues, entry.branch_top.number()), scale);
-    json["chi"] = 1 - entry.tunnels + entry.cavities;
-    json["b1"] = entry.tunnels;
-    json["b2"] = entry.cavities;
-    json["tunnels"] = entry.tunnels;
-    json["cavities"] = entry.cavities;
+    add_isovalues_and_topology(json, table, entry, scale);
     add_size_and_place(json, entry, info, joined_notes(note_of(entry, called), likeness_note(card, i, called)));
     json["like"] = likeness_json(card, static_cast<std::int64_t>(card.line) + 1, card.line == i);
     if (scale.is_low()) json["border"] = border_json(entry.border);

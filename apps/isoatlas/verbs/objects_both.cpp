@@ -148,15 +148,7 @@ Json object_json(const Tables& tables, const RankedObject& object) {
     Json json{{"polarity", name_of(object.polarity)}, {"id", entry.id}, {"event", entry.event.number()}};
     add_number_and_name(json, called.numbers[object.entry], called.names[object.entry]);
     json["reference"] = called.references[object.entry];
-    add_isovalues(json, entry, scale);
-    const std::optional<RecommendedIsovalue> best = isovalue_of(table, entry);
-    json["reason"] = best ? Json(name_of(best->reason)) : Json(nullptr);
-    json["isovalues"] = isovalues_json(isovalues_of(table.isovalues, entry.branch_top.number()), scale);
-    json["chi"] = 1 - entry.tunnels + entry.cavities;
-    json["b1"] = entry.tunnels;
-    json["b2"] = entry.cavities;
-    json["tunnels"] = entry.tunnels;
-    json["cavities"] = entry.cavities;
+    add_isovalues_and_topology(json, table, entry, scale);
     add_size_and_place(json, entry, info, line_note(tables, object));
     json["inside"] = object.inside >= 0 ? Json(object.inside + 1) : Json(nullptr);
     json["like"] = likeness_json(tables.card(object), tables.card_line(object), tables.card(object).line == object.entry);
