@@ -29,7 +29,8 @@ struct Called {
 Called find_called(const Arguments& own, Source& source, Terminal& terminal, const ObjectTable& table) {
     ObjectDirectory directory(own, source, terminal);
     const Polarity polarity = polarity_of(source.info());
-    Called called{.cards = cards_of(table, source.info().extent)};
+    Called called;
+    called.cards = cards_of(table, source.info().extent);
     for (const ObjectEntry& entry : table.entries) {
         const bool is_numbered = !own.all && !own.selects;
         const std::int64_t number = is_numbered ? std::ssize(called.numbers) + 1 : directory.number_of(entry);
