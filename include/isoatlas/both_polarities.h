@@ -29,10 +29,14 @@ struct TogetherOptions {
     std::function<bool(const ObjectEntry& low, std::int64_t voxel)> holds{};
 };
 
-/// The entries of the tables of a volume and of the negated one (isoatlas/polarity.h), by hypervolume: contrast times size, in the unit of
-/// the values times voxels, which means the same on both sides (docs/theory/9-low-values.md#one-list). Entries of one object stay together,
-/// in the order of their table; background (is_background()) comes last. high: the cavities of the volume, too; those that are objects of
-/// low values of the list say what they are cavities of. Cost: O(entries log entries), and of each enclosed object options.holds() for
+/// Of each entry: sum over the object of its contrast, in the unit of the values times voxels. Above `merges`, ObjectEntry::hypervolume; of
+/// the main branch, which never merges, above best_tau, with voxels falling along straight lines between its entries.
+[[nodiscard]] std::vector<double> hypervolumes_of_lines(const ObjectTable& table);
+
+/// The entries of the tables of a volume and of the negated one (isoatlas/polarity.h), by hypervolumes_of_lines(): contrast times size,
+/// which means the same on both sides (docs/theory/9-low-values.md#one-list). Entries on one card (isoatlas/cards.h) stay together, in the
+/// order of their table; background (is_background()) comes last. high: the cavities of the volume, too; those that are objects of low
+/// values of the list say what they are cavities of. Cost: O(entries log entries), and of each enclosed object options.holds() for
 /// cavities by rank until it is found.
 [[nodiscard]] std::vector<RankedObject> rank_together(const ObjectsAndCavities& high, const ObjectTable& low, const Extent& extent,
                                                       const TogetherOptions& options = {});

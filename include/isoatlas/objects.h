@@ -97,8 +97,9 @@ struct RankOptions {
 [[nodiscard]] std::optional<RecommendedIsovalue> isovalue_of(const ObjectTable& table, const ObjectEntry& entry);
 
 inline constexpr double kBackgroundPart = 2.0 / 3;
-/// Is it background, nearly the box of the volume: an outline of more than that part of all voxels, or, of low values, that many around
-/// everything, reaching all sides? Pictures omit it.
+inline constexpr double kBorderPart = 0.5;
+/// Is it background, nearly the box of the volume: an outline of more than kBackgroundPart of all voxels; or, of low values, that many
+/// around everything, reaching all sides, or any that reaches all sides with more than kBorderPart of the border? Pictures omit it.
 [[nodiscard]] bool is_background(const ObjectEntry& entry, const Extent& extent);
 
 /// The first entries alone (0: all): what rank_objects() gives with that many at most.

@@ -4,27 +4,31 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <numeric>
+
+#include "isoatlas/cards.h"
 
 namespace isoatlas {
 namespace {
 
-/// Entries of one object, and its rank.
+/// Entries on one card, and its rank.
 struct PolarGroup {
     Polarity polarity;
     double hypervolume;
     std::vector<std::size_t> entries;
 };
 
-std::vector<PolarGroup> groups_of(const ObjectTable& table, Polarity polarity) {
+std::vector<PolarGroup> groups_of(const ObjectTable& table, Polarity polarity, const Extent& extent) {
+    const std::vector<Card> cards = cards_of(table, extent);
+    const std::vector<double> hypervolumes = hypervolumes_of_lines(table);
     std::vector<PolarGroup> groups;
-    std::map<std::int64_t, std::size_t> of_branch;
-    for (std::size_t i = 0; i < table.entries.size(); ++i) {
-        const ObjectEntry& entry = table.entries[i];
-        const auto [at, is_new] = of_branch.emplace(entry.branch_top.number(), groups.size());
-        if (is_new || !entry.branch_top.exists())
-            groups.push_back({polarity, entry.hypervolume, {i}});
-        else
-            groups[at->second].entries.push_back(i);
+    std::map<std::size_t, std::size_t> of_card;
+    for (std::size_t i = 0; i < cards.size(); ++i) {
+        const auto [at, is_new] = of_card.emplace(cards[i].line, groups.size());
+        if (is_new) groups.push_back({polarity, 0, {}});
+        PolarGroup& group = groups[at->second];
+        group.entries.push_back(i);
+        group.hypervolume = std::max(group.hypervolume, hypervolumes[i]);
     }
     return groups;
 }
@@ -33,8 +37,8 @@ class List {
 public:
     List(const ObjectsAndCavities& high, const ObjectTable& low, const Extent& extent, const TogetherOptions& options)
         : high_(high), low_(low), extent_(extent), options_(options) {
-        std::vector<PolarGroup> groups = groups_of(high.objects, Polarity::high);
-        std::ranges::move(groups_of(low, Polarity::low), std::back_inserter(groups));
+        std::vector<PolarGroup> groups = groups_of(high.objects, Polarity::high, extent);
+        std::ranges::move(groups_of(low, Polarity::low, extent), std::back_inserter(groups));
         std::ranges::stable_sort(groups, std::ranges::greater(), &PolarGroup::hypervolume);
         for (const bool background : {false, true}) {
             for (const PolarGroup& group : groups) {
@@ -113,6 +117,24 @@ private:
 };
 
 }  // namespace
+
+std::vector<double> hypervolumes_of_lines(const ObjectTable& table) {
+    std::vector<double> result(table.entries.size());
+    std::vector<std::size_t> lines;  // of the main branch, from the inside out
+    for (std::size_t i = 0; i < result.size(); ++i) {
+        result[i] = table.entries[i].hypervolume;
+        if (table.entries[i].main_branch) lines.push_back(i);
+    }
+    std::ranges::stable_sort(lines, {}, [&](std::size_t i) { return table.entries[i].voxels; });
+    double tau = lines.empty() ? 0 : table.entries[lines.front()].appears, voxels = 0, sum = 0;
+    for (const std::size_t i : lines) {
+        const ObjectEntry& line = table.entries[i];
+        sum += std::abs(line.best_tau - tau) * std::midpoint(voxels, static_cast<double>(line.voxels));
+        tau = line.best_tau, voxels = static_cast<double>(line.voxels);
+        result[i] = sum;
+    }
+    return result;
+}
 
 std::vector<RankedObject> rank_together(const ObjectsAndCavities& high, const ObjectTable& low, const Extent& extent,
                                         const TogetherOptions& options) {

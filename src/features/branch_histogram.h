@@ -48,6 +48,13 @@ struct BranchHistogram {
             range > 0 && std::isfinite(range) ? (axis.position(height) - low) / range * static_cast<double>(added.size()) : 0;
         return static_cast<std::size_t>(std::clamp(bin, 0.0, static_cast<double>(added.size() - 1)));
     }
+    /// Of what is counted, with each bin in its middle: sum of (its height - that height).
+    [[nodiscard]] double hypervolume_above(double height) const {
+        double sum = 0;
+        for (std::size_t i = bin(height); i < added.size(); ++i)
+            sum += added[i] * std::max(0.0, axis.height(low + (static_cast<double>(i) + 0.5) * width()) - height);
+        return sum;
+    }
     [[nodiscard]] double width() const { return (high - low) / static_cast<double>(added.size()); }
 
 private:

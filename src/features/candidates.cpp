@@ -18,6 +18,8 @@ namespace {
 
 constexpr double kLargePart = 0.15;  // of the volume: a branch that ends so large is everything but background
 
+constexpr double kShownPart = 0.01;  // of the hypervolume of an object: where less is left, an isovalue does not show it
+
 constexpr IsovalueReason kOutline = IsovalueReason::outline;
 
 template <class Id>
@@ -122,6 +124,10 @@ private:
         std::vector<StableIsovalue> peaks = stable_isovalues(histogram);
         const std::int64_t min = min_voxels(volume_.info->extent.voxels());  // below it the gaps between values of single voxels dominate
         std::erase_if(peaks, [min](const StableIsovalue& peak) { return peak.volume < static_cast<double>(min); });
+        if (branch != kMainBranch) {  // whose isovalues may show things of any size
+            const double least = kShownPart * histogram.hypervolume_above(b.merges);
+            std::erase_if(peaks, [&](const StableIsovalue& peak) { return histogram.hypervolume_above(peak.tau) < least; });
+        }
         std::vector<BranchIsovalue> own;
         for (const StableIsovalue& peak : peaks)
             own.push_back({branch, alive(peak.tau, b), peak.prominence, is_outline(peak, peaks) ? kOutline : IsovalueReason::stable, -1,

@@ -59,6 +59,7 @@ std::optional<RecommendedIsovalue> isovalue_of(const ObjectTable& table, const O
 
 bool is_background(const ObjectEntry& entry, const Extent& extent) {
     const bool is_around = entry.border.is_known() && entry.border.sides == (extent.rank == 2 ? 15 : 63);
+    if (is_around && entry.border.part > kBorderPart) return true;
     return (entry.outline || is_around) && static_cast<double>(entry.voxels) > kBackgroundPart * static_cast<double>(extent.voxels());
 }
 

@@ -179,6 +179,11 @@ bool Contents::has_present_values() const {
     return algorithm != nullptr && *algorithm == std::to_string(kAlgorithmVersion);
 }
 
+bool Contents::has_present_trees() const {
+    const std::string* algorithm = fingerprint.find("algorithm");
+    return has_present_values() || (algorithm != nullptr && *algorithm == std::to_string(kFirstExactAlgorithm));
+}
+
 const StoredArray& Contents::array(std::string_view name, std::string_view type) const {
     const auto found = std::find_if(arrays.begin(), arrays.end(), [&](const StoredArray& a) { return a.name == name && a.type == type; });
     if (found != arrays.end()) return *found;

@@ -67,6 +67,8 @@ struct Contents {
     /// Would this version compute the same numbers from the same samples? In versions 1 and 2 face and body points were rounded
     /// differently, and tables followed other rules.
     [[nodiscard]] bool has_present_values() const;
+    /// The same of all but the tables of objects and cavities, whose isovalues follow the rules of their version.
+    [[nodiscard]] bool has_present_trees() const;
 };
 
 /// Arrays about the negated samples have this before the names that they have of the samples.

@@ -15,7 +15,8 @@ namespace isoatlas {
 
 /// Version of the algorithms. Increment whenever any array of a store would get other numbers, even in the last place: earlier finished
 /// phases and tables are then neither used nor compared.
-inline constexpr int kAlgorithmVersion = 3;  // 1 and 2: stores of versions 1 and 2, which do not record it
+inline constexpr int kAlgorithmVersion = 4;     // 1 and 2: stores of versions 1 and 2, which do not record it
+inline constexpr int kFirstExactAlgorithm = 3;  // the same but for the isovalues of the tables of objects and cavities
 
 struct Fingerprint {
     struct Member {

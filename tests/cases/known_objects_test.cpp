@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 
 #include "isoatlas/cavities.h"
@@ -63,6 +64,48 @@ TEST(KnownObjects, HaveLines) {
 }
 
 // The skin of the average head is sharpest where its cavities begin to open: only with these filled is that seen.
+/// A block, and a hill with a spike of 36 voxels: the only sharp edge of the hill is that of the spike.
+Volume hill_with_spike(double spike) {
+    const Extent extent{3, {100, 60, 60}};
+    std::vector<float> samples(static_cast<std::size_t>(extent.voxels()), 0.0F);
+    const auto set = [&](std::int64_t x, std::int64_t y, std::int64_t z, double value) {
+        samples[static_cast<std::size_t>(extent.index(x, y, z))] = static_cast<float>(value);
+    };
+    for (std::int64_t z = 0; z < 60; ++z) {
+        for (std::int64_t y = 0; y < 60; ++y) {
+            for (std::int64_t x = 0; x < 100; ++x) {
+                const double away = std::hypot(static_cast<double>(x - 70), static_cast<double>(y - 30), static_cast<double>(z - 30));
+                if (x < 35) set(x, y, z, 300);
+                if (x >= 40) set(x, y, z, std::max(0.0, 100 - 4 * away));
+                if (std::abs(x - 70) <= 1 && std::abs(y - 30) <= 1 && 28 <= z && z < 32) set(x, y, z, spike);
+            }
+        }
+    }
+    return make_volume<float>(extent, samples);
+}
+
+TEST(KnownObjects, AreNotShownByAHundredthOfThem) {
+    for (const auto& [spike, is_hill] : {std::pair{150.0, true}, {100000.0, false}}) {  // of which the latter is most of the object
+        const Volume volume = hill_with_spike(spike);
+        const ObjectTable table = rank_objects(volume, analyse(volume));
+        const auto hill = std::ranges::find_if(table.entries, [](const ObjectEntry& entry) { return entry.position[0] > 40; });
+        ASSERT_NE(hill, table.entries.end());
+        EXPECT_EQ(hill->voxels > 1000, is_hill) << spike << ": " << hill->voxels << " voxels at " << hill->best_tau;
+    }
+}
+
+/// White matter is an object of its own above 275, and falls apart into noise long before its few brightest voxels.
+TEST(KnownObjects, AreShownWhereTheyAreMoreThanAFewVoxels) {
+    const fs::path file = fs::path(ISOATLAS_SOURCE_DIR).parent_path() / "shared" / "data" / "seg3d_mr" / "seg3d_mr.nrrd";
+    if (!fs::exists(file)) GTEST_SKIP() << "no shared data beside the checkout";
+    const Volume volume = load_volume(file.string());
+    const ObjectTable table = rank_objects(volume, analyse(volume));
+    const auto largest = std::ranges::find_if(table.entries, [](const ObjectEntry& entry) { return !entry.main_branch; });
+    ASSERT_NE(largest, table.entries.end());
+    EXPECT_GT(largest->voxels, 200000);
+    EXPECT_LT(largest->best_tau, 290);
+}
+
 TEST(KnownObjects, HaveAnOuterBoundaryOfTheirOwn) {
     const fs::path file = fs::path(ISOATLAS_SOURCE_DIR).parent_path() / "shared" / "data" / "avg152T1" / "avg152T1.nrrd";
     if (!fs::exists(file)) GTEST_SKIP() << "no shared data beside the checkout";

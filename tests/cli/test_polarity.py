@@ -169,8 +169,25 @@ class Polarity(harness.CliTest):
         self.assertEqual(len(self.run_json("objects", "v.nrrd", "--polarity", "both", "--top", "3")["objects"]), 3)
         for words in (["--tau", "100"], ["--cavities"], ["--both"]):
             self.run_error(2, "objects", "v.nrrd", "--polarity", "both", *words, says="polarity")
-        for verb in ("tree", "extract"):
-            self.run_error(2, verb, "v.nrrd", "--polarity", "both", *(["-o", "x.ply"] if verb == "extract" else []), says="of high or of low")
+        self.run_error(2, "tree", "v.nrrd", "--polarity", "both", says="of high or of low")
+
+    def test_the_first_of_both_are_written_together(self):
+        for name in ("v.nrrd", "both.atlas"):
+            both = [name, "--polarity", "both"]
+            listed = [o["reference"] for o in self.run_json("objects", *both)["objects"]][:3]
+            self.assertTrue(any(r.startswith("low") for r in listed) and not all(r.startswith("low") for r in listed), listed)
+            for words in (["--top", "3"], ["--top", "2", "--object", listed[2]]):
+                found = self.run_json("extract", *both, *words, "-o", "three.glb")["surfaces"]
+                self.assertEqual(sorted(s["reference"] for s in found), sorted(listed))
+            labels = self.run_json("label", *both, "--top", "3", "-o", "three.seg.nrrd")["segments"]
+            self.assertEqual(sorted(s["reference"] for s in labels), sorted(listed))
+            self.run_ok("render", *both, "--top", "3", "-o", "three.png")
+            for verb, words in (("extract", ["--tau", "100"]), ("label", ["--zones"]), ("label", ["--tau", "100"]),
+                                ("render", ["--tau", "100"]), ("extract", ["--contour", "c1", "--top", "3"])):
+                self.run_error(2, verb, *both, *words, "-o", {"extract": "x.ply", "label": "x.nrrd", "render": "x.png"}[verb],
+                               says="the list of objects of both polarities")
+        self.run_ok("build", "v.nrrd", "-o", "high.atlas")
+        self.run_error(4, "extract", "high.atlas", "--polarity", "both", "--top", "3", "-o", "x.glb", says="low")
 
     def test_numbers_and_names_of_a_polarity(self):
         tables = {side: self.run_json("objects", "both.atlas", "--polarity", side)["objects"] for side in ("high", "low")}

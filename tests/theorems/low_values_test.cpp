@@ -11,12 +11,14 @@
 
 #include "isoatlas/active.h"
 #include "isoatlas/both_polarities.h"
+#include "isoatlas/cards.h"
 #include "isoatlas/isovalue.h"
 #include "oracle/mesh_checks.h"
 
 namespace oracle {
 namespace {
 
+using isoatlas::ObjectEntry;
 using isoatlas::Polarity;
 using isoatlas::ValueType;
 using isoatlas::Volume;
@@ -172,26 +174,74 @@ void of_both_polarities_are_one_list() {
     const auto entry = [&](const isoatlas::RankedObject& o) -> const isoatlas::ObjectEntry& {
         return (o.polarity == Polarity::high ? high_tables.objects : low_table).entries[o.entry];
     };
-    std::set<std::pair<Polarity, std::size_t>> seen;
+    const auto table = [&](Polarity side) -> const isoatlas::ObjectTable& {
+        return side == Polarity::high ? high_tables.objects : low_table;
+    };
+    std::map<std::pair<Polarity, std::size_t>, double> of_card;  // the largest hypervolume of its lines
+    std::map<Polarity, std::vector<isoatlas::Card>> cards;
+    for (const Polarity side : {Polarity::high, Polarity::low}) {
+        cards[side] = cards_of(table(side), volume.info.extent);
+        const std::vector<double> hypervolumes = hypervolumes_of_lines(table(side));
+        for (std::size_t i = 0; i < hypervolumes.size(); ++i) {
+            double& largest = of_card[{side, cards[side][i].line}];
+            largest = std::max(largest, hypervolumes[i]);
+        }
+    }
+    std::set<std::pair<Polarity, std::size_t>> seen, seen_cards;
     double before = kInfinity;
     for (std::size_t i = 0; i < list.size(); ++i) {
+        const std::pair<Polarity, std::size_t> card{list[i].polarity, cards[list[i].polarity][list[i].entry].line};
         RC_ASSERT(seen.emplace(list[i].polarity, list[i].entry).second);
+        const bool is_new = seen_cards.insert(card).second;
+        if (!is_new) RC_ASSERT(list[i].polarity == list[i - 1].polarity && list[i].entry > list[i - 1].entry);  // cards stay together
+        if (!is_new) RC_ASSERT((card == std::pair(card.first, cards[card.first][list[i - 1].entry].line)));
+        if (list[i].inside >= 0) RC_ASSERT(list[static_cast<std::size_t>(list[i].inside)].polarity == list[i].polarity);
+        if (list[i].cavity_of >= 0) RC_ASSERT(list[i].is_enclosed);
+        if (list[i].cavity_of >= 0) RC_ASSERT(list[static_cast<std::size_t>(list[i].cavity_of)].polarity == Polarity::high);
         if (is_background(entry(list[i]), volume.info.extent)) {
             before = -1;
             continue;
         }
         RC_ASSERT(before >= 0);  // background is last
-        RC_ASSERT(entry(list[i]).hypervolume <= before);
-        before = entry(list[i]).hypervolume;
-        if (list[i].inside >= 0) RC_ASSERT(list[static_cast<std::size_t>(list[i].inside)].polarity == list[i].polarity);
-        if (list[i].cavity_of < 0) continue;
-        RC_ASSERT(list[i].is_enclosed);
-        RC_ASSERT(list[static_cast<std::size_t>(list[i].cavity_of)].polarity == Polarity::high);
+        RC_ASSERT(of_card[card] <= before);
+        before = of_card[card];
     }
     RC_ASSERT(isoatlas::rank_together(high_tables, low_table, volume.info.extent, {.top = 3}).size() ==
               std::min<std::size_t>(3, list.size()));
 }
 RC_GTEST_PROP(LowObjects, OfBothPolaritiesAreOneList, ()) { of_both_polarities_are_one_list(); }
+
+ObjectEntry line(double tau, std::int64_t voxels, bool is_main, double hypervolume) {
+    ObjectEntry entry{};
+    entry.best_tau = tau, entry.voxels = voxels, entry.main_branch = is_main, entry.hypervolume = hypervolume;
+    entry.appears = is_main ? 20 : 15, entry.branch_top = isoatlas::EventId(is_main ? 0 : 1);
+    return entry;
+}
+
+/// The main branch from the outside in: 100, 40 and 10 voxels at 5, 10 and 16, of which the last appears at 20.
+TEST(LowObjects, AndHighOnesAreRankedByWhatALineShows) {
+    isoatlas::ObjectsAndCavities high;
+    high.objects.entries = {line(5, 100, true, 9999), line(10, 40, true, 9999), line(16, 10, true, 9999), line(12, 30, false, 171)};
+    EXPECT_EQ(hypervolumes_of_lines(high.objects), (std::vector<double>{20 + 150 + 350, 20 + 150, 20, 171}));
+    isoatlas::ObjectTable low;
+    low.entries = {line(-8, 50, true, 9999)};  // of negated samples: it appears at -3
+    low.entries[0].appears = -3;
+    EXPECT_EQ(hypervolumes_of_lines(low), (std::vector<double>{125}));
+    std::vector<std::pair<Polarity, std::size_t>> list;
+    for (const isoatlas::RankedObject& object : isoatlas::rank_together(high, low, {3, {100, 10, 1}}))
+        list.emplace_back(object.polarity, object.entry);
+    EXPECT_EQ(list, (std::vector<std::pair<Polarity, std::size_t>>{
+                        {Polarity::high, 0}, {Polarity::high, 3}, {Polarity::high, 1}, {Polarity::low, 0}, {Polarity::high, 2}}));
+}
+
+TEST(LowObjects, AroundEverythingAreBackground) {
+    const isoatlas::Extent extent{3, {10, 10, 10}};
+    ObjectEntry entry = line(5, 300, true, 0);
+    for (const auto& [sides, part, expected] : {std::tuple{63, 0.51, true}, {63, 0.5, false}, {62, 0.9, false}, {0, 0.0, false}}) {
+        entry.border = {static_cast<std::uint8_t>(sides), part};
+        EXPECT_EQ(is_background(entry, extent), expected) << sides << " " << part;
+    }
+}
 
 // Numbers.
 

@@ -22,8 +22,8 @@ constexpr double kGlass = 0.28;  // opacity of what would hide others
 /// A surface to be extracted and drawn.
 struct Wanted {
     double tau = 0;  ///< stored
-    std::vector<std::int64_t> objects;
-    std::string name;
+    std::vector<std::int64_t> objects{};
+    std::string name{};
     std::vector<std::int64_t> contours{};
     ShellChoice shell = ShellChoice::all;
     Polarity polarity = Polarity::high;
@@ -94,7 +94,7 @@ std::vector<Wanted> wanted_of(const Arguments& arguments, Sides& sides) {
     add_shown(arguments, sides, wanted);
     const bool other_things = arguments.picture.volume || !arguments.picture.slices.empty();
     if ((!wanted.empty() || other_things) && arguments.top == 0) return wanted;
-    const std::vector<ChosenObject> first = sides.directory().first(std::max<std::int64_t>(1, arguments.top));
+    const std::vector<ChosenObject> first = sides.first(std::max<std::int64_t>(1, arguments.top));
     if (first.empty() && wanted.empty()) nothing_there(arguments, "nothing in this volume rises above the noise");
     for (const ChosenObject& object : first) wanted.push_back(wanted_object(object));
     return wanted;

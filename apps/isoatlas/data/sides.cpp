@@ -112,6 +112,26 @@ std::vector<ChosenObject> Sides::find_contours(std::span<const ObjectReference> 
                          [&](ObjectDirectory& on, const std::vector<ObjectReference>& own) { return on.find_contours(own, typed); });
 }
 
+std::vector<ObjectReference> Sides::first_of_both(std::int64_t count) {
+    ObjectsAndCavities high;
+    high.objects = source(Polarity::high).objects({.top = 0});
+    source(Polarity::high).release_trees();
+    const ObjectTable low = source(Polarity::low).objects({.top = 0});
+    const Extent& extent = main().info().extent;
+    std::vector<ObjectReference> first;
+    for (const RankedObject& object : rank_together(high, low, extent, {.top = count})) {
+        const ObjectTable& table = object.polarity == Polarity::high ? high.objects : low;
+        if (!first.empty() && is_background(table.entries[object.entry], extent)) break;  // it comes last
+        const auto number = static_cast<std::int64_t>(object.entry) + 1;
+        first.push_back({.number = number, .tau = {}, .word = std::to_string(number), .polarity = object.polarity});
+    }
+    return first;
+}
+
+std::vector<ChosenObject> Sides::first(std::int64_t count) {
+    return arguments_.polarity == PolarityChoice::both ? find(first_of_both(count)) : directory().first(count);
+}
+
 void Sides::release_trees() {
     for (const std::unique_ptr<Side>& side : sides_) {
         if (side) side->source.release_trees();

@@ -42,6 +42,8 @@ public:
     [[nodiscard]] std::vector<ChosenObject> find(std::span<const ObjectReference> references, const std::optional<double>& typed = {});
     [[nodiscard]] std::vector<ChosenObject> find_contours(std::span<const ObjectReference> references,
                                                           const std::optional<double>& typed = {});
+    /// The first lines of the table, with --polarity both of the list of both, that show more than background, if there are any.
+    [[nodiscard]] std::vector<ChosenObject> first(std::int64_t count);
     /// Of the sources that are open.
     void release_trees();
 
@@ -55,6 +57,7 @@ private:
     };
     [[nodiscard]] Side& side(Polarity polarity);
     [[nodiscard]] Polarity polarity_of_reference(const ObjectReference& reference);
+    [[nodiscard]] std::vector<ObjectReference> first_of_both(std::int64_t count);
     template <class Find>
     [[nodiscard]] std::vector<ChosenObject> find_on_sides(std::span<const ObjectReference> references, const Find& find);
 

@@ -2,6 +2,7 @@
 #include "options/arguments.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <filesystem>
 
@@ -81,13 +82,23 @@ void convert_polarity(const std::string& word, Arguments& arguments) {
     const std::vector<std::pair<std::string, PolarityChoice>> choices{
         {"high", PolarityChoice::high}, {"low", PolarityChoice::low}, {"both", PolarityChoice::both}};
     arguments.polarity = parse_choice<PolarityChoice>("--polarity", word, choices);
-    const bool takes_both =
-        arguments.verb == "objects" || arguments.verb == "build" || arguments.verb == "atlas" || arguments.verb == "view";
-    if (*arguments.polarity == PolarityChoice::both && !takes_both)
-        usage("isoatlas " + arguments.verb + " shows the objects of high or of low values", "choose one with --polarity",
+    constexpr std::array kTakeBoth{"objects", "build", "atlas", "view", "extract", "label", "render"};
+    if (*arguments.polarity == PolarityChoice::both && std::ranges::find(kTakeBoth, arguments.verb) == kTakeBoth.end())
+        usage("isoatlas " + arguments.verb + " is about the objects of high or of low values", "choose one with --polarity",
               "--polarity high or --polarity low");
     MissingPolicy::Action& missing = arguments.missing.action;
     if (missing == MissingPolicy::Action::below && arguments.is_low()) missing = MissingPolicy::Action::above;  // in no object
+}
+
+/// An isovalue parts high from low values; only objects of the list of both can be mixed.
+void check_both(const Arguments& arguments) {
+    const bool is_of_list = arguments.verb == "objects" || arguments.verb == "build" || arguments.verb == "atlas" || arguments.verb == "view";
+    if (arguments.polarity != PolarityChoice::both || is_of_list) return;
+    const bool has_isovalue = arguments.tau || !arguments.picture.taus.empty() || arguments.zones || !arguments.contours.empty();
+    const bool chooses = arguments.top > 0 || arguments.best || !arguments.objects.empty() || arguments.verb == "render";
+    if (!has_isovalue && chooses) return;
+    usage("--polarity both is about the list of objects of both polarities", "choose --polarity high or --polarity low, or omit it",
+          "--top N or --object REF");
 }
 
 void convert(const CLI::App& app, const Typed& typed, Arguments& arguments) {
@@ -145,6 +156,7 @@ void convert(const CLI::App& app, const Typed& typed, Arguments& arguments) {
                                                  {"levels", TreeDetail::levels},
                                                  {"elements", TreeDetail::elements},
                                                  {"contours", TreeDetail::contours}});
+    check_both(arguments);
 }
 
 [[noreturn]] void explain(const CLI::App& app, const std::string& verb, const std::vector<std::string>& words, const std::string& message) {

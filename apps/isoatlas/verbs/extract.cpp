@@ -47,7 +47,7 @@ std::vector<ChosenObject> chosen_objects(const Arguments& arguments, Sides& side
     for (ChosenObject& contour : sides.find_contours(arguments.contours, arguments.tau)) chosen.push_back(std::move(contour));
     const std::int64_t top = arguments.top > 0 ? arguments.top : arguments.best && arguments.objects.empty() ? 1 : 0;
     if (top == 0) return chosen;
-    std::vector<ChosenObject> first = sides.directory().first(top);
+    std::vector<ChosenObject> first = sides.first(top);
     if (first.empty()) {
         throw Error(ErrorKind::not_found, {.file = arguments.file,
                                            .what = "no object of this volume is above the noise level",

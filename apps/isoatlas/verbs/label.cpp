@@ -121,7 +121,7 @@ Json segment_json(const LabelledObject& one) {
 ChosenLabels make_chosen_labels(const Arguments& arguments, Sides& sides) {
     std::vector<ChosenObject> chosen = sides.find(arguments.objects, arguments.tau);
     if (arguments.top > 0) {
-        for (const ChosenObject& object : sides.directory().first(arguments.top)) chosen.push_back(object);
+        for (const ChosenObject& object : sides.first(arguments.top)) chosen.push_back(object);
     }
     if (chosen.empty()) {
         throw Error(ErrorKind::not_found, {.file = arguments.file,

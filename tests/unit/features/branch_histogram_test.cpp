@@ -42,5 +42,18 @@ TEST(BranchHistogram, ThatIsBentShowsBodiesOfLowValues) {
     EXPECT_FALSE(std::ranges::any_of(taus(0), is_outer));
 }
 
+TEST(BranchHistogram, HasTheHypervolumeAboveAHeight) {
+    BranchHistogram histogram(BranchId(0), 10, 110, false, HeightAxis({10, 110, 0}, 1));
+    double above = 0, total = 0;
+    for (int i = 0; i < 10000; ++i) {
+        const double height = 10 + 0.01 * i;
+        histogram.add(height, 2);
+        above += 2 * std::max(0.0, height - 80), total += 2 * (height - 10);
+    }
+    EXPECT_NEAR(histogram.hypervolume_above(80), above, 0.01 * above);
+    EXPECT_NEAR(histogram.hypervolume_above(10), total, 0.01 * total);
+    EXPECT_EQ(histogram.hypervolume_above(110), 0);
+}
+
 }  // namespace
 }  // namespace isoatlas
