@@ -14,8 +14,6 @@
 namespace isoatlas::cli {
 namespace {
 
-constexpr double kReadLimit = 2e9;  ///< bytes of samples, as for `info`
-
 /// Verbs whose results follow from the samples; the others take them as they are.
 bool is_analysis(const std::string& verb) {
     constexpr std::array<std::string_view, 14> verbs{"atlas", "view",    "build",   "objects", "measure", "tree",     "extract",
@@ -144,9 +142,6 @@ void assume_inputs(Arguments& arguments, Terminal& terminal) {
     if (!(is_analysis(arguments.verb) || filters) || is_atlas(arguments.file)) return;
     try {
         const std::unique_ptr<VolumeReader> reader = open_volume(arguments.file, arguments.open);
-        const VolumeInfo& info = reader->info();
-        if (static_cast<double>(info.extent.voxels()) * static_cast<double>(size_of(info.type)) > kReadLimit && !inputs.seeks_gaussian)
-            return;
         Arguments looked = arguments;  // all or nothing
         Session session(arguments, terminal);
         look(looked, *reader, session.context());

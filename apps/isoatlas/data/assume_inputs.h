@@ -9,7 +9,7 @@ namespace isoatlas::cli {
 
 class Terminal;
 
-/// Looks at the samples of arguments.file, where the verb analyses a volume file of at most 2 GB of samples, and completes the arguments:
+/// Looks at the samples of arguments.file, where the verb analyses a volume file, and completes the arguments:
 /// missing.no_data, gaussian, inputs.are_labels, inputs.assumed. A file that cannot be read is left to the verb, which reports it.
 /// Throws Error{cancelled}. Cost: reads the file once; --gaussian auto: some of it again.
 void assume_inputs(Arguments& arguments, Terminal& terminal);
