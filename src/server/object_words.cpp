@@ -13,16 +13,6 @@ namespace {
 
 constexpr std::string_view kLow = "low";
 
-const Atlas& atlas_of(const NumberedSides& sides, Polarity polarity) {
-    const Atlas& found = sides.atlas(polarity);
-    if (polarity_of(found.info()) == polarity) return found;
-    throw Error(ErrorKind::not_found, {.where = "polarity",
-                                       .what = std::string("the store does not hold objects of ") + name_of(polarity) + " values",
-                                       .next = "build another one from the volume, of both polarities",
-                                       .reason = Reason::polarity_not_stored,
-                                       .value = name_of(polarity)});
-}
-
 [[noreturn]] void refuse(std::string_view name, std::string_view item) {
     refuse_parameter(name, item,
                      name == "contour"
@@ -44,7 +34,7 @@ NamedPart part_of(std::string_view name, std::string_view item, const NumberedSi
     std::string_view word = item.substr(0, mark);
     NamedPart part{.is_contour = name == "contour", .polarity = sides.polarity};
     if (word.starts_with(kLow)) word.remove_prefix(kLow.size()), part.polarity = Polarity::low;
-    const Atlas& atlas = atlas_of(sides, part.polarity);
+    const Atlas& atlas = store_of(sides.stores, part.polarity);
     const NumberedLines& lines = sides.lines(part.polarity);
     if (mark < item.size()) {
         const std::optional<double> tau = whole_text_as<double>(item.substr(mark + 1));
@@ -69,6 +59,16 @@ NamedPart part_of(std::string_view name, std::string_view item, const NumberedSi
 }
 
 }  // namespace
+
+const Atlas& store_of(const StoreSides& stores, Polarity polarity) {
+    const Atlas& found = stores.of(polarity);
+    if (polarity_of(found.info()) == polarity) return found;
+    throw Error(ErrorKind::usage, {.where = "polarity",
+                                   .what = std::string("the store does not hold objects of ") + name_of(polarity) + " values",
+                                   .next = "omit it, or build a store of both polarities",
+                                   .reason = Reason::polarity_not_stored,
+                                   .value = name_of(polarity)});
+}
 
 NumberedLines numbered_lines(const ObjectTable& objects, const CavityTable& cavities) {
     NumberedLines lines;

@@ -16,6 +16,9 @@ namespace isoatlas {
 
 class QueryParameters;
 
+/// Throws Error: usage (the store does not hold that polarity).
+[[nodiscard]] const Atlas& store_of(const StoreSides& stores, Polarity polarity);
+
 /// The lines of both tables, by number.
 struct NumberedLines {
     struct Line {

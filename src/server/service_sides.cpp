@@ -21,14 +21,7 @@ bool only_voxels(std::string_view text) {
 
 const Atlas& Service::atlas(const Request& request) const {
     const StoreSides sides = store_state_.sides();
-    const Polarity wanted = request.polarity.value_or(polarity_of(sides.main.info()));
-    const Atlas& found = sides.of(wanted);
-    if (polarity_of(found.info()) == wanted) return found;
-    throw Error(ErrorKind::usage, {.where = "polarity",
-                                   .what = std::string("the store does not hold objects of ") + name_of(wanted) + " values",
-                                   .next = "omit it, or build a store of both polarities",
-                                   .reason = Reason::polarity_not_stored,
-                                   .value = name_of(wanted)});
+    return store_of(sides, request.polarity.value_or(polarity_of(sides.main.info())));
 }
 
 const SideCatalogue& Service::side_of(const Request& request) { return known(request).of(polarity_of(atlas(request).info())); }
