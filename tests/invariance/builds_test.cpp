@@ -1,5 +1,6 @@
 // The same store, byte for byte, for any memory, number of threads and slab size, and when several are built in one process at once.
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <filesystem>
 #include <fstream>
@@ -39,7 +40,7 @@ protected:
         return {std::istreambuf_iterator<char>(file), {}};
     }
 
-    std::filesystem::path folder_ = std::filesystem::path(testing::TempDir()) / "isoatlas_builds";
+    std::filesystem::path folder_ = std::filesystem::path(testing::TempDir()) / ("isoatlas_builds_" + std::to_string(::getpid()));
     std::string expected_;
 };
 

@@ -1,5 +1,6 @@
 // Two builds with two budgets in one process, at the same time: the same stores, and the process stays within the sum of the budgets.
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <cstdio>
 #include <cstdlib>
@@ -68,7 +69,16 @@ protected:
         std::exit(0);
     }
 
-    std::filesystem::path folder_ = std::filesystem::path(testing::TempDir()) / "isoatlas_two_budgets";
+    /// Of this run; the second starts of the program find it in the environment.
+    static std::string own_folder() {
+        constexpr const char* kVariable = "ISOATLAS_TWO_BUDGETS";
+        if (const char* known = std::getenv(kVariable)) return known;
+        std::string name = testing::TempDir() + "isoatlas_two_budgets_" + std::to_string(::getpid());
+        ::setenv(kVariable, name.c_str(), 1);
+        return name;
+    }
+
+    std::filesystem::path folder_ = own_folder();
 };
 
 TEST_F(TwoBudgets, GiveTheSameStoresAndKeepTheirSum) {

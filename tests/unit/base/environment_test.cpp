@@ -2,6 +2,7 @@
 #include "isoatlas/environment.h"
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <atomic>
 #include <cerrno>
@@ -66,7 +67,7 @@ protected:
     void TearDown() override { std::filesystem::remove_all(folder_); }
     [[nodiscard]] std::string folder(const std::string& name) const { return (folder_ / name).string(); }
 
-    std::filesystem::path folder_ = std::filesystem::path(testing::TempDir()) / "isoatlas_environments";
+    std::filesystem::path folder_ = std::filesystem::path(testing::TempDir()) / ("isoatlas_environments_" + std::to_string(::getpid()));
 };
 
 TEST_F(Environments, ArraysOfTwoThreadsLieInTwoFiles) {

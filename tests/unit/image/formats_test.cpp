@@ -1,5 +1,6 @@
 // Picture files against an independent reader: the pixels are those that were written.
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <filesystem>
 #include <fstream>
@@ -12,7 +13,9 @@ namespace {
 
 bool has_pillow() { return external::run("/usr/bin/python3 -c 'import PIL'").status == 0; }
 
-std::string file(const std::string& name) { return (std::filesystem::path(testing::TempDir()) / name).string(); }
+std::string file(const std::string& name) {
+    return (std::filesystem::path(testing::TempDir()) / (std::to_string(::getpid()) + "_" + name)).string();
+}
 
 /// Smooth colours, hard edges, noise and (asked for) transparency.
 Image pattern(std::int64_t width, std::int64_t height, int shift, bool transparent) {
