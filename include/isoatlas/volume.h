@@ -57,7 +57,11 @@ struct Geometry {
 [[nodiscard]] Vec3 to_physical(const Geometry& geometry, const Vec3& voxel_position);
 /// +1 when the axes form a right-handed frame in physical space, -1 for a mirrored one.
 [[nodiscard]] int handedness(const Geometry& geometry);
-/// Physical volume of the box around one sample (area in 2D); for rectilinear grids that of the given voxel.
+/// Volume (rank 2: area) that the unit vectors along the axes span, 0 to 1: 1 where they are perpendicular, within 1e-6, the rounding of
+/// headers.
+[[nodiscard]] double skew_of(const Geometry& geometry, int rank);
+/// Physical volume of the box around one sample (area in 2D), of a sheared grid that of the parallelepiped; for rectilinear grids that of
+/// the given voxel.
 [[nodiscard]] double voxel_measure(const Geometry& geometry, const Extent& extent, std::int64_t index);
 
 /// mirror - value, rounded to the least double that is not less. Applied twice to a double it gives the least one that the first result

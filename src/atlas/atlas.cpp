@@ -84,13 +84,13 @@ struct Atlas::Data {
     std::optional<Surface> extract_object(double tau, ExtractOptions options, const Context& context, QueryCost* cost) {
         LevelQuery spent;
         const double height = tunnel_height_of(options.interpolant, options.tunnel_height);
-        std::vector<std::int64_t>& objects = options.surface.objects;
-        const std::optional<StoredWindow> window = window_of_object(*samples, objects[0], tau, height, context, spent);
+        std::vector<std::int64_t>& chosen = options.surface.objects;
+        const std::optional<StoredWindow> window = window_of_object(*samples, chosen[0], tau, height, context, spent);
         if (!window) {
             count(spent, 0, cost);
             return std::nullopt;
         }
-        objects = {local_voxel(*window, objects[0])};
+        chosen = {local_voxel(*window, chosen[0])};
         Surface surface;
         std::int64_t active = 0;
         extract_level(window->at(tau), options, context, surface, cost == nullptr ? nullptr : &active);

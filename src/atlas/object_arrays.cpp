@@ -156,11 +156,13 @@ void check(const ObjectTable& table, const Container& store) {
     }
 }
 
-/// Physical sizes of a store whose spacing was corrected: as rank_objects() computes them.
+/// Physical sizes of a store whose spacing was corrected, or of sheared axes, which early versions took as perpendicular: as
+/// rank_objects() computes them.
 template <class Entry>
 void measure_again(const Container& store, std::vector<Entry>& entries) {
-    if (!store.has_other_steps()) return;
     const VolumeInfo& info = store.contents().volume;
+    const bool is_even = std::ranges::all_of(info.geometry.coordinates, [](const auto& places) { return places.size() < 2; });
+    if (!is_even || (!store.has_other_steps() && skew_of(info.geometry, info.extent.rank) == 1)) return;
     for (Entry& entry : entries) entry.measure = static_cast<double>(entry.voxels) * voxel_measure(info.geometry, info.extent, 0);
 }
 

@@ -25,7 +25,8 @@ ShownSmoothing shown_at(const Volume& volume, const CutOptions& options, double 
         shown.picture = draw_still(volume, tau, colour, still, context);
         return shown;
     }
-    const ExtractOptions extracted{.interpolant = options.interpolant, .tunnel_height = options.tunnel_height, .surface = {.ids = false}};
+    ExtractOptions extracted{.interpolant = options.interpolant, .tunnel_height = options.tunnel_height};
+    extracted.surface.ids = false;
     shown.picture = draw_turntable(extract(volume, tau, extracted, context), colour, still, context);
     return shown;
 }
@@ -40,7 +41,8 @@ std::optional<SmoothingComparison> compare_smoothing(const Atlas& atlas, double 
     const ObjectTable table = atlas.objects({.top = 8}, silent);
     if (table.entries.empty()) return std::nullopt;
     const auto first = std::ranges::find_if(table.entries, [&](const ObjectEntry& entry) { return !is_background(entry, info.extent); });
-    SmoothingComparison comparison{.tau = (first == table.entries.end() ? table.entries.front() : *first).best_tau};
+    SmoothingComparison comparison;
+    comparison.tau = (first == table.entries.end() ? table.entries.front() : *first).best_tau;
     const CutOptions cut_options{.interpolant = atlas.interpolant(), .tunnel_height = atlas.tunnel_height()};
     report(context, only_phase("smooth"), 0);
     const Volume volume = atlas.volume(silent);

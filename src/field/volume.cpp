@@ -8,6 +8,14 @@
 #include "field/error_free.h"
 
 namespace isoatlas {
+namespace {
+
+double determinant_of(const Mat3& m) {
+    return m[0][0] * (m[1][1] * m[2][2] - m[1][2] * m[2][1]) - m[0][1] * (m[1][0] * m[2][2] - m[1][2] * m[2][0]) +
+           m[0][2] * (m[1][0] * m[2][1] - m[1][1] * m[2][0]);
+}
+
+}  // namespace
 
 std::size_t size_of(ValueType type) {
     static constexpr std::size_t kSize[] = {1, 1, 2, 2, 4, 4, 4, 8};
@@ -41,11 +49,13 @@ Vec3 to_physical(const Geometry& geometry, const Vec3& voxel_position) {
     return physical;
 }
 
-int handedness(const Geometry& geometry) {
+int handedness(const Geometry& geometry) { return determinant_of(geometry.direction) < 0 ? -1 : 1; }
+
+double skew_of(const Geometry& geometry, int rank) {
     const Mat3& m = geometry.direction;
-    const double determinant = m[0][0] * (m[1][1] * m[2][2] - m[1][2] * m[2][1]) - m[0][1] * (m[1][0] * m[2][2] - m[1][2] * m[2][0]) +
-                               m[0][2] * (m[1][0] * m[2][1] - m[1][1] * m[2][0]);
-    return determinant < 0 ? -1 : 1;
+    const auto minor = [&m](int p, int q) { return m[p][0] * m[q][1] - m[q][0] * m[p][1]; };  // of the first two axes
+    const double skew = rank == 3 ? std::abs(determinant_of(m)) : std::hypot(minor(0, 1), minor(1, 2), minor(2, 0));
+    return std::abs(skew - 1) < 1e-6 ? 1 : skew;
 }
 
 double mirrored(double mirror, double value) {
@@ -55,7 +65,7 @@ double mirrored(double mirror, double value) {
 
 double voxel_measure(const Geometry& geometry, const Extent& extent, std::int64_t index) {
     const Index3 position = extent.voxel(index);
-    double measure = 1;
+    double measure = skew_of(geometry, extent.rank);
     for (int axis = 0; axis < extent.rank; ++axis) {
         const std::vector<double>& c = geometry.coordinates[axis];
         if (c.size() < 2) {

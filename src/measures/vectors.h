@@ -20,7 +20,6 @@ namespace isoatlas {
 [[nodiscard]] inline Mat3 transposed(const Mat3& m) {
     return {{{m[0][0], m[1][0], m[2][0]}, {m[0][1], m[1][1], m[2][1]}, {m[0][2], m[1][2], m[2][2]}}};
 }
-[[nodiscard]] inline double determinant(const Mat3& m) { return dot(m[0], cross(m[1], m[2])); }
 
 /// A direction or its opposite: that whose largest component is positive. No component is -0.
 [[nodiscard]] inline Vec3 pointed(const Vec3& axis) {

@@ -1,23 +1,9 @@
 #include "measures/voxel_boxes.h"
 
-#include <cmath>
-
-#include "measures/vectors.h"
-
 namespace isoatlas {
-namespace {
-
-/// Of the unit vectors along the axes. Those of a file are orthogonal within rounding: then it is 1.
-double skew_of(const Mat3& direction, int rank) {
-    const Mat3 columns = transposed(direction);
-    const double skew = rank == 3 ? std::abs(determinant(direction)) : norm(cross(columns[0], columns[1]));
-    return std::abs(skew - 1) < 1e-6 ? 1 : skew;
-}
-
-}  // namespace
 
 VoxelBoxes::VoxelBoxes(const Geometry& geometry, const Extent& extent)
-    : origin(geometry.origin), direction(geometry.direction), skew(skew_of(geometry.direction, extent.rank)) {
+    : origin(geometry.origin), direction(geometry.direction), skew(skew_of(geometry, extent.rank)) {
     for (std::size_t axis = 0; axis < 3; ++axis) {
         const auto count = static_cast<std::size_t>(extent.size[axis]);
         const std::vector<double>& c = geometry.coordinates[axis];

@@ -38,7 +38,8 @@ Volume mask_of(const Volume& volume, std::int64_t label) {
 Turntable picture_of(const Volume& volume, Interpolant interpolant, const LabelCard& card, const PageOptions& options,
                      const Context& context) {
     if (volume.info.extent.rank == 2) return draw_still(mask_of(volume, card.region.label), 0.5, card.colour, options, context);
-    const ExtractOptions extracted{.interpolant = interpolant, .surface = {.ids = false}};
+    ExtractOptions extracted{.interpolant = interpolant};
+    extracted.surface.ids = false;
     return draw_turntable(extract_label(volume, card.region.label, extracted, context), card.colour, options, context);
 }
 

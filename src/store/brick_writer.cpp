@@ -38,7 +38,7 @@ void for_each_brick(const BrickGrid& grid, int threads, const auto& work) {
 }
 
 PackedArray array_of_bricks(const char* name, const char* type, const BrickGrid& grid, std::function<void(const ByteSink&)> feed) {
-    return {name, type, {grid.size[2], grid.size[1], grid.size[0]}, kBlock, std::move(feed)};
+    return {name, type, {grid.size[2], grid.size[1], grid.size[0]}, kPackedBlock, std::move(feed)};
 }
 
 template <class T>

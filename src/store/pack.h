@@ -25,11 +25,11 @@ struct PackedArray {
     [[nodiscard]] std::int64_t bytes() const { return StoredArray{name, type, shape, 0, block, 0, 0, chunk}.bytes(); }
 };
 
-inline constexpr std::int64_t kBlock = std::int64_t{1} << 16;
+inline constexpr std::int64_t kPackedBlock = std::int64_t{1} << 16;
 
 /// An array whose numbers stay in memory until the store is written.
 template <class T>
-[[nodiscard]] PackedArray packed(std::string name, std::string type, std::span<const T> numbers, std::int64_t block = kBlock) {
+[[nodiscard]] PackedArray packed(std::string name, std::string type, std::span<const T> numbers, std::int64_t block = kPackedBlock) {
     return {std::move(name), std::move(type), {static_cast<std::int64_t>(numbers.size())}, block, [numbers](const ByteSink& put) {
                 put(std::as_bytes(numbers));
             }};
@@ -39,7 +39,7 @@ template <class T>
 template <class T>
 [[nodiscard]] PackedArray packed_chunks(std::string name, std::string type, std::size_t count) {
     constexpr std::size_t kFew = 1024;
-    PackedArray array{std::move(name), std::move(type), {static_cast<std::int64_t>(count)}, kBlock, {}};
+    PackedArray array{std::move(name), std::move(type), {static_cast<std::int64_t>(count)}, kPackedBlock, {}};
     if (count < kFew) return array;
     array.chunk = std::min(kChunk, static_cast<std::int64_t>(count));
     array.block = array.chunk * static_cast<std::int64_t>(sizeof(T));

@@ -1,6 +1,7 @@
 """What a store answers, as far as no later version may change it: numbers and names that today's documents have, checksums of the rest."""
 import hashlib
 import json
+import math
 import os
 import pathlib
 import subprocess
@@ -42,6 +43,22 @@ def chosen(members, document):
     return {name: document[name] for name in members}
 
 
+def skew_of(volume):
+    """Area or volume that the unit vectors of the axes span."""
+    (a, b, c), (d, e, f), (g, h, i) = volume["direction"]
+    if volume["rank"] == 2:
+        return math.hypot(a * e - b * d, d * h - e * g, g * b - h * a)
+    return abs(a * (e * i - f * h) - b * (d * i - f * g) + c * (d * h - e * g))
+
+
+def sized(members, entry, volume):
+    """An object with its size as it was until 0.2, when axes were taken as perpendicular."""
+    box = math.prod(volume["spacing"][:volume["rank"]])
+    if not math.isclose(entry["measure"], entry["voxels"] * box * skew_of(volume), rel_tol=1e-9):
+        raise RuntimeError(f"{entry['voxels']} voxels have the size {entry['measure']}")
+    return {**chosen(members, entry), "measure": entry["voxels"] * box}
+
+
 def event(columns, row):
     """A row of the tree as the object that it was until 0.2."""
     e = dict(zip(columns, row))
@@ -67,7 +84,7 @@ def surface(folder, store, *options):
 
 def at_isovalue(folder, store, tau):
     found = run("objects", store, "--tau", tau)
-    objects = [chosen(OF_OBJECTS_AT, entry) for entry in found["objects"]]
+    objects = [sized(OF_OBJECTS_AT, entry, found["volume"]) for entry in found["objects"]]
     answer = {"tau": tau, "objects": objects[:3], "of_all_objects": sum_of(objects), "active_cells": found["active_cells"],
               "preview": chosen(OF_PREVIEW, run("info", store, "--tau", tau)["preview"])}
     if found["volume"]["rank"] == 3:
@@ -102,7 +119,8 @@ def answers_of_side(store):
         found = run("objects", store)
         answer = {"volume": chosen(OF_VOLUME, info["volume"]), "values": [low, high], "interpolant": found["interpolant"],
                   "tunnel_height": found.get("tunnel_height"), "samples": sum_of((folder / "samples.npy").read_bytes()[-told["sample_bytes"]:]),
-                  "trees": {}, "objects": [chosen(OF_OBJECTS, entry) for entry in found["objects"]], "branches": found["branches"],
+                  "trees": {},
+                  "objects": [sized(OF_OBJECTS, entry, info["volume"]) for entry in found["objects"]], "branches": found["branches"],
                   "noise": found["noise"]}
         for detail, members in MEMBERS.items():
             lines = [chosen(members, line) for line in tree(store, detail)]

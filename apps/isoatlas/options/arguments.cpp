@@ -92,7 +92,8 @@ void convert_polarity(const std::string& word, Arguments& arguments) {
 
 /// An isovalue parts high from low values; only objects of the list of both can be mixed.
 void check_both(const Arguments& arguments) {
-    const bool is_of_list = arguments.verb == "objects" || arguments.verb == "build" || arguments.verb == "atlas" || arguments.verb == "view";
+    const bool is_of_list =
+        arguments.verb == "objects" || arguments.verb == "build" || arguments.verb == "atlas" || arguments.verb == "view";
     if (arguments.polarity != PolarityChoice::both || is_of_list) return;
     const bool has_isovalue = arguments.tau || !arguments.picture.taus.empty() || arguments.zones || !arguments.contours.empty();
     const bool chooses = arguments.top > 0 || arguments.best || !arguments.objects.empty() || arguments.verb == "render";
