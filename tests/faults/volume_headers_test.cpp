@@ -12,11 +12,14 @@ namespace {
 std::atomic<std::size_t> g_largest{0};
 }
 
-[[gnu::noinline]] void* operator new(std::size_t bytes) {
+[[gnu::noinline]] void* operator new(std::size_t bytes, const std::nothrow_t&) noexcept {
     std::size_t seen = g_largest.load();
     while (bytes > seen && !g_largest.compare_exchange_weak(seen, bytes)) {
     }
-    void* memory = std::malloc(bytes == 0 ? 1 : bytes);
+    return std::malloc(bytes == 0 ? 1 : bytes);
+}
+[[gnu::noinline]] void* operator new(std::size_t bytes) {
+    void* memory = operator new(bytes, std::nothrow);
     if (memory == nullptr) throw std::bad_alloc();
     return memory;
 }
