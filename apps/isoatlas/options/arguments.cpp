@@ -5,6 +5,8 @@
 #include <array>
 #include <cmath>
 #include <filesystem>
+#include <span>
+#include <string_view>
 
 #include <fmt/format.h>
 #include <isoatlas/version.h>
@@ -78,12 +80,17 @@ void convert_no_data(const std::string& word, Arguments& arguments) {
     if (arguments.missing.action == MissingPolicy::Action::error) arguments.missing.action = MissingPolicy::Action::below;
 }
 
+/// Verbs about the list of both polarities, and those that take objects from it.
+constexpr std::array<std::string_view, 4> kHaveBoth{"objects", "build", "atlas", "view"};
+constexpr std::array<std::string_view, 3> kChooseOfBoth{"extract", "label", "render"};
+bool is_one_of(std::span<const std::string_view> verbs, std::string_view verb) { return std::ranges::find(verbs, verb) != verbs.end(); }
+
 void convert_polarity(const std::string& word, Arguments& arguments) {
     const std::vector<std::pair<std::string, PolarityChoice>> choices{
         {"high", PolarityChoice::high}, {"low", PolarityChoice::low}, {"both", PolarityChoice::both}};
     arguments.polarity = parse_choice<PolarityChoice>("--polarity", word, choices);
-    constexpr std::array kTakeBoth{"objects", "build", "atlas", "view", "extract", "label", "render"};
-    if (*arguments.polarity == PolarityChoice::both && std::ranges::find(kTakeBoth, arguments.verb) == kTakeBoth.end())
+    const bool takes_both = is_one_of(kHaveBoth, arguments.verb) || is_one_of(kChooseOfBoth, arguments.verb);
+    if (*arguments.polarity == PolarityChoice::both && !takes_both)
         usage("isoatlas " + arguments.verb + " is about the objects of high or of low values", "choose one with --polarity",
               "--polarity high or --polarity low");
     MissingPolicy::Action& missing = arguments.missing.action;
@@ -92,9 +99,7 @@ void convert_polarity(const std::string& word, Arguments& arguments) {
 
 /// An isovalue parts high from low values; only objects of the list of both can be mixed.
 void check_both(const Arguments& arguments) {
-    const bool is_of_list =
-        arguments.verb == "objects" || arguments.verb == "build" || arguments.verb == "atlas" || arguments.verb == "view";
-    if (arguments.polarity != PolarityChoice::both || is_of_list) return;
+    if (arguments.polarity != PolarityChoice::both || is_one_of(kHaveBoth, arguments.verb)) return;
     const bool has_isovalue = arguments.tau || !arguments.picture.taus.empty() || arguments.zones || !arguments.contours.empty();
     const bool chooses = arguments.top > 0 || arguments.best || !arguments.objects.empty() || arguments.verb == "render";
     if (!has_isovalue && chooses) return;
