@@ -43,7 +43,8 @@ int run(const std::vector<std::string>& words, Terminal& terminal) {
     } else {
         assume_inputs(arguments, terminal);
         arguments = with_sides(arguments);
-        code = find_verb(arguments.verb)->run(arguments, terminal);
+        const Verb& verb = *find_verb(arguments.verb);
+        code = runs_for_each_polarity(arguments) ? run_for_each_polarity(verb, arguments, terminal) : verb.run(arguments, terminal);
     }
     terminal.finish();
     tell_resources(terminal, start);

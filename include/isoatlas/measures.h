@@ -143,8 +143,9 @@ struct Percolation {
 [[nodiscard]] Percolation percolation(const Volume& volume, const AnalysisOptions& options = {}, const Context& context = {});
 
 /// A table with one line for each object; the format follows the name: .csv. Written to a temporary name and renamed. Throws Error: usage
-/// (unknown extension), resource.
-void write_measures(const std::string& path, const VolumeInfo& info, std::span<const ObjectMeasures> objects);
-void write_measures(Sink& sink, const VolumeInfo& info, std::span<const ObjectMeasures> objects);
+/// (unknown extension), resource. polarities: of each object, where they are of both (info: of either); the values are those of the file.
+void write_measures(const std::string& path, const VolumeInfo& info, std::span<const ObjectMeasures> objects,
+                    std::span<const Polarity> polarities = {});
+void write_measures(Sink& sink, const VolumeInfo& info, std::span<const ObjectMeasures> objects, std::span<const Polarity> polarities = {});
 
 }  // namespace isoatlas

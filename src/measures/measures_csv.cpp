@@ -1,4 +1,5 @@
 // write_measures: a line for each object.
+#include <algorithm>
 #include <cmath>
 
 #include "base/atomic_file.h"
@@ -70,23 +71,29 @@ std::string checked_extension(const std::string& path) {
 
 }  // namespace
 
-void write_measures(Sink& sink, const VolumeInfo& info, std::span<const ObjectMeasures> objects) {
+void write_measures(Sink& sink, const VolumeInfo& info, std::span<const ObjectMeasures> objects, std::span<const Polarity> polarities) {
     (void)checked_extension(sink.name());
     ByteWriter out(sink);
-    const bool is_low = polarity_of(info) == Polarity::low;
-    out.text(std::string(kColumns) + (is_low ? ",polarity\n" : "\n"));
-    const std::string units = "," + quoted(info.geometry.unit) + "," + quoted(info.value_unit) + (is_low ? ",low\n" : "\n");
+    const Polarity own = polarity_of(info);
+    const VolumeInfo other = negated(info);
+    const bool has_low = polarities.empty() ? own == Polarity::low : std::ranges::find(polarities, Polarity::low) != polarities.end();
+    out.text(std::string(kColumns) + (has_low ? ",polarity\n" : "\n"));
+    const std::string units = "," + quoted(info.geometry.unit) + "," + quoted(info.value_unit);
     for (std::size_t i = 0; i < objects.size(); ++i) {
-        put(out, info, static_cast<std::int64_t>(i) + 1, objects[i]);
+        const Polarity polarity = polarities.empty() ? own : polarities[i];
+        put(out, polarity == own ? info : other, static_cast<std::int64_t>(i) + 1, objects[i]);
         out.text(units);
+        if (has_low) out.text(polarity == Polarity::low ? ",low" : ",high");
+        out.text("\n");
     }
     out.finish();
 }
 
-void write_measures(const std::string& path, const VolumeInfo& info, std::span<const ObjectMeasures> objects) {
+void write_measures(const std::string& path, const VolumeInfo& info, std::span<const ObjectMeasures> objects,
+                    std::span<const Polarity> polarities) {
     (void)checked_extension(path);
     AtomicFile file(path);
-    write_measures(file, info, objects);
+    write_measures(file, info, objects, polarities);
     file.commit();
 }
 

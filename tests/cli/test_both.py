@@ -86,11 +86,69 @@ class Both(harness.CliTest):
         self.assertLess(voxels["1"], high["voxels"])                  # the other one has lost what is in it
         self.assertLess(voxels["low1"], voxels["1"])
 
+    def test_verbs_about_one_polarity_run_for_each(self):
+        verbs = [(["tree"], "tree-events"), (["tree", "--detail", "levels"], "tree-levels"), (["tree", "--keep", "2"], "simplified-tree"),
+                 (["objects", "--tau", "50"], "objects-at"), (["objects", "--cavities"], "cavities"), (["objects", "--both"], "objects"),
+                 (["measure"], "measure"), (["measure", "--tau", "50"], "measure"), (["spectrum"], "spectrum"), (["handles"], "handles"),
+                 (["handles", "--exact"], "handles"), (["table131"], "table131")]
+        for (verb, *options), schema in verbs:
+            for volume in ("v.nrrd", "both.atlas"):
+                if verb == "table131" and volume == "both.atlas":
+                    continue
+                both = self.run_json(verb, volume, *options, "--polarity", "both")
+                self.assert_schema(both, "both")
+                self.assertEqual(both["verb"], verb)
+                for polarity in ("high", "low"):
+                    one = self.run_json(verb, volume, *options, "--polarity", polarity)
+                    self.assert_schema(both[polarity], schema)
+                    self.assertEqual(both[polarity], one, (verb, options, volume, polarity))
+            text = [self.run_ok(verb, "v.nrrd", *options, "--polarity", p).stdout for p in ("high", "low", "both")]
+            self.assertEqual(text[2], f"high values\n{text[0]}\nlow values\n{text[1]}")
+
+    def test_files_of_each_polarity(self):
+        for words, name in ((["tree"], "t.csv"), (["measure"], "m.csv"), (["spectrum"], "s.svg")):
+            self.run_ok(words[0], "v.nrrd", "--polarity", "both", "-o", name)
+            stem, extension = name.split(".")
+            for polarity in ("high", "low"):
+                self.run_ok(words[0], "v.nrrd", "--polarity", polarity, "-o", name)
+                own = self.folder / f"{stem}-{polarity}.{extension}"
+                self.assertEqual((self.folder / name).read_bytes(), own.read_bytes())
+        self.run_ok("objects", "v.nrrd", "--polarity", "both", "--curve", "c.csv")
+        self.assertNotEqual((self.folder / "c-high.csv").read_bytes(), (self.folder / "c-low.csv").read_bytes())
+
+    def test_half_an_answer_is_none(self):
+        self.run_error(4, "tree", "high.atlas", "--polarity", "both", "-o", "new.csv", says="low values")
+        (self.folder / "new-low.csv").mkdir()
+        self.run_error(5, "tree", "v.nrrd", "--polarity", "both", "-o", "new.csv", says="new-low.csv")
+        (self.folder / "new-low.csv").rmdir()
+        self.run_error(6, "measure", "v.nrrd", "--polarity", "both", "--tau", "9", "-o", "new.csv", says="9")
+        self.assertEqual([path.name for path in self.folder.glob("new*")], [])
+        self.run_error(2, "handles", "v.nrrd", "--polarity", "both", "--exact", "--object", "low1", next_says="reference")
+        self.run_error(2, "extract", "v.nrrd", "--polarity", "both", "--tau", "50", "-o", "a.ply", says="--polarity both")
+        self.run_error(2, "animate", "v.nrrd", "--polarity", "both", "--from", "50", "--to", "20", "-o", "a.gif", says="--polarity both")
+
+    def test_an_animation_of_both(self):
+        self.run_ok("animate", "v.nrrd", "--polarity", "both", "--top", "3", "--steps", "2", "--size", "48x48", "-o", "a.gif")
+
+    def test_measures_of_references_of_both(self):
+        for side in ([], ["--polarity", "both"]):
+            told = self.run_json("measure", "v.nrrd", *side, "--object", "low1@50,1@150", "-o", "m.csv")
+            self.assert_schema(told, "measure")
+            self.assertEqual(told["polarity"], "both")
+            lines = [line.split(",") for line in (self.folder / "m.csv").read_text().splitlines()]
+            for o, line, polarity, reference in zip(told["objects"], lines[1:], ("low", "high"), ("low1@50", "1@150")):
+                self.assertEqual((o["polarity"], o["reference"]), (polarity, reference))
+                (own,) = self.run_json("measure", "v.nrrd", "--object", reference)["objects"]
+                self.assertEqual({**own, "polarity": polarity}, o)
+                at = dict(zip(lines[0], line))
+                self.assertEqual((at["polarity"], float(at["tau"]), int(at["voxels"])), (polarity, o["tau"], o["voxels"]))
+
     def test_names_of_both(self):
         self.run_ok("name", "both.atlas", "low1", "channel")
         self.run_ok("name", "both.atlas", "1", "block")
         names = self.run_json("name", "both.atlas")
         self.assert_schema(names, "name")
+        self.assertEqual(self.run_json("name", "both.atlas", "--polarity", "both"), names)
         self.assertEqual([(n["reference"], n["name"]) for n in names["names"]], [("1", "block"), ("low1", "channel")])
         told = self.run_json("extract", "both.atlas", "--object", "channel", "--object", "block", "-o", "a.glb")
         self.assertEqual([s["reference"] for s in told["surfaces"]], ["low1", "1"])

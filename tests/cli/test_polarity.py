@@ -167,9 +167,6 @@ class Polarity(harness.CliTest):
         text = self.run_ok("objects", "v.nrrd", "--polarity", "both").stdout
         self.assertIn("polarity", text)
         self.assertEqual(len(self.run_json("objects", "v.nrrd", "--polarity", "both", "--top", "3")["objects"]), 3)
-        for words in (["--tau", "100"], ["--cavities"], ["--both"]):
-            self.run_error(2, "objects", "v.nrrd", "--polarity", "both", *words, says="polarity")
-        self.run_error(2, "tree", "v.nrrd", "--polarity", "both", says="of high or of low")
 
     def test_the_first_of_both_are_written_together(self):
         for name in ("v.nrrd", "both.atlas"):
@@ -236,7 +233,6 @@ class Polarity(harness.CliTest):
             self.assertEqual(document["below_tau"], sum(value < 100 for value in channel_volume()))
         self.run_ok("measure", "v.nrrd", "--polarity", "low", "-o", "low.csv")
         self.assertTrue((self.folder / "low.csv").read_text().splitlines()[0].endswith(",polarity"))
-        self.run_error(2, "measure", "v.nrrd", "--polarity", "both", says="of high or of low")
 
     def test_segmentations_and_fill_values(self):
         for name in ("v.nrrd", "both.atlas"):
@@ -265,6 +261,10 @@ class Polarity(harness.CliTest):
             self.run_ok("dump", name, "low/elements/place")
         self.run_ok("verify", "both.atlas", "--full")
         self.run_ok("verify", "v.nrrd", "--polarity", "low")
+        for name in ("v.nrrd", "both.atlas"):
+            checks = [check["name"] for check in self.run_json("verify", name, "--polarity", "both")["checks"]]
+            low = [check for check in checks if check.endswith("_of_low_values")]
+            self.assertEqual([check + "_of_low_values" for check in checks if check not in low], low)
         self.assertEqual(self.run_json("info", "both.atlas")["values"]["low"], 10)
         text = self.run_ok("info", "low.atlas").stdout
         self.assertRegex(text, r"values +10 \.\. 190")

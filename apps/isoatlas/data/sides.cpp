@@ -121,7 +121,7 @@ std::vector<ObjectReference> Sides::first_of_both(std::int64_t count) {
     std::vector<ObjectReference> first;
     for (const RankedObject& object : rank_together(high, low, extent, {.top = count})) {
         const ObjectTable& table = object.polarity == Polarity::high ? high.objects : low;
-        if (!first.empty() && is_background(table.entries[object.entry], extent)) break;  // it comes last
+        if (!first.empty() && is_background(table, object.entry, extent)) break;  // it comes last
         const auto number = static_cast<std::int64_t>(object.entry) + 1;
         first.push_back({.number = number, .tau = {}, .word = std::to_string(number), .polarity = object.polarity});
     }

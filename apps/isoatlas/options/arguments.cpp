@@ -5,7 +5,6 @@
 #include <array>
 #include <cmath>
 #include <filesystem>
-#include <span>
 #include <string_view>
 
 #include <fmt/format.h>
@@ -80,28 +79,26 @@ void convert_no_data(const std::string& word, Arguments& arguments) {
     if (arguments.missing.action == MissingPolicy::Action::error) arguments.missing.action = MissingPolicy::Action::below;
 }
 
-/// Verbs about the list of both polarities, and those that take objects from it.
-constexpr std::array<std::string_view, 4> kHaveBoth{"objects", "build", "atlas", "view"};
-constexpr std::array<std::string_view, 3> kChooseOfBoth{"extract", "label", "render"};
-bool is_one_of(std::span<const std::string_view> verbs, std::string_view verb) { return std::ranges::find(verbs, verb) != verbs.end(); }
-
 void convert_polarity(const std::string& word, Arguments& arguments) {
     const std::vector<std::pair<std::string, PolarityChoice>> choices{
         {"high", PolarityChoice::high}, {"low", PolarityChoice::low}, {"both", PolarityChoice::both}};
     arguments.polarity = parse_choice<PolarityChoice>("--polarity", word, choices);
-    const bool takes_both = is_one_of(kHaveBoth, arguments.verb) || is_one_of(kChooseOfBoth, arguments.verb);
-    if (*arguments.polarity == PolarityChoice::both && !takes_both)
-        usage("isoatlas " + arguments.verb + " is about the objects of high or of low values", "choose one with --polarity",
-              "--polarity high or --polarity low");
     MissingPolicy::Action& missing = arguments.missing.action;
     if (missing == MissingPolicy::Action::below && arguments.is_low()) missing = MissingPolicy::Action::above;  // in no object
 }
 
-/// An isovalue parts high from low values; only objects of the list of both can be mixed.
+/// An isovalue parts high from low values: what is made of everything on one side of it is of one polarity.
 void check_both(const Arguments& arguments) {
-    if (arguments.polarity != PolarityChoice::both || is_one_of(kHaveBoth, arguments.verb)) return;
-    const bool has_isovalue = arguments.tau || !arguments.picture.taus.empty() || arguments.zones || !arguments.contours.empty();
-    const bool chooses = arguments.top > 0 || arguments.best || !arguments.objects.empty() || arguments.verb == "render";
+    constexpr std::array<std::string_view, 4> kChooseObjects{"extract", "label", "render", "animate"};
+    if (arguments.polarity != PolarityChoice::both) return;
+    if (arguments.verb == "handles" && !arguments.objects.empty())
+        usage("--polarity both with --object", "omit --polarity: a reference says its polarity (2, low2)");
+    if (std::ranges::find(kChooseObjects, arguments.verb) == kChooseObjects.end()) return;
+    const AnimationArguments& animation = arguments.picture.animation;
+    const bool has_isovalue = arguments.tau || !arguments.picture.taus.empty() || arguments.zones || !arguments.contours.empty() ||
+                              animation.from || animation.to;
+    const bool chooses =
+        arguments.top > 0 || arguments.best || !arguments.objects.empty() || arguments.verb == "render" || arguments.verb == "animate";
     if (!has_isovalue && chooses) return;
     usage("--polarity both is about the list of objects of both polarities", "choose --polarity high or --polarity low, or omit it",
           "--top N or --object REF");

@@ -42,6 +42,10 @@ class Terminal::Buffer : public std::streambuf {
 public:
     Buffer() { setp(bytes_.data(), bytes_.data() + bytes_.size()); }
 
+    /// Where text goes: nullptr: standard output.
+    void send_to(std::string* text) { text_ = text; }
+    void drop() { empty(); }
+
     /// Results are valid UTF-8, whatever file names they contain. An incomplete character waits for its remaining bytes, unless this is the
     /// end.
     void flush(bool is_end) {
@@ -79,6 +83,10 @@ private:
     }
     void empty() { setp(bytes_.data(), bytes_.data() + bytes_.size()); }
     void write(std::string_view text) {
+        if (text_ != nullptr) {
+            text_->append(text);
+            return;
+        }
         while (!text.empty()) {
             const ssize_t written = ::write(STDOUT_FILENO, text.data(), text.size());
             if (written < 0 && errno == EINTR) continue;
@@ -92,6 +100,7 @@ private:
     }
 
     std::array<char, 1 << 16> bytes_;
+    std::string* text_ = nullptr;
 };
 
 Terminal::Terminal() : buffer_(std::make_unique<Buffer>()), out_(buffer_.get()) {
@@ -103,6 +112,22 @@ Terminal::~Terminal() = default;
 std::ostream& Terminal::out() { return out_; }
 
 void Terminal::finish() { out_.flush(); }
+
+std::string Terminal::collected(const std::function<void()>& print) {
+    finish();
+    std::string text;
+    buffer_->send_to(&text);
+    try {
+        print();
+        finish();
+    } catch (...) {
+        buffer_->drop();
+        buffer_->send_to(nullptr);
+        throw;
+    }
+    buffer_->send_to(nullptr);
+    return text;
+}
 
 void Terminal::say(const std::string& line) {
     if (!style_.quiet) talk(line);

@@ -1,6 +1,7 @@
 // Terminal: results go to standard output, messages to standard error. A result that cannot be written is an error.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <ostream>
 #include <string>
@@ -25,6 +26,8 @@ public:
     [[nodiscard]] std::ostream& out();
     /// Flushes and checks standard output: call before reporting success.
     void finish();
+    /// What `print` writes to out(), instead of standard output.
+    [[nodiscard]] std::string collected(const std::function<void()>& print);
 
     /// One line on standard error unless --quiet.
     void say(const std::string& line);

@@ -30,6 +30,7 @@ struct Measured {
     bool is_named = false;  ///< the objects that --object names
     std::vector<ObjectMeasures> objects;
     std::vector<std::string> references, notes;  ///< of the objects of the table, or of those that are named; else empty
+    std::vector<Polarity> polarities;            ///< of the objects where they differ; else empty
     std::vector<double> isovalues;               ///< stored, of the porosity
     std::vector<std::int64_t> below;
     std::int64_t below_tau = 0;
@@ -69,17 +70,14 @@ void measure_named(const Arguments& arguments, Sides& sides, Measured& measured)
                          .what = reference_of(object) + " is a cavity, which has no measures of its own",
                          .next = "isoatlas objects " + shell_word(arguments.file) + " --polarity low lists it as an object of low values"});
         }
-        if (object.polarity != chosen[0].polarity) {
-            throw Error(ErrorKind::usage, {.file = arguments.file,
-                                           .what = "objects of high and of low values are measured one after the other",
-                                           .next = "two commands"});
-        }
         const std::vector<ObjectMeasures> found = sides.source(object).measure(object.tau, {object.voxel});
         measured.objects.push_back(found.at(0));
-        measured.polarity = object.polarity;
+        measured.polarities.push_back(object.polarity);
         measured.references.push_back(reference_of(object, true));
         measured.notes.push_back(object.name);
     }
+    measured.polarity = measured.polarities.front();
+    if (std::ranges::count(measured.polarities, measured.polarity) == std::ssize(measured.polarities)) measured.polarities.clear();
 }
 
 void measure_labels(const Arguments& arguments, Source& source, Measured& measured) {
@@ -108,12 +106,18 @@ void measure_volume(const Arguments& arguments, Source& source, Measured& measur
     if (!arguments.no_percolation) measured.percolation = source.percolation();
 }
 
+/// Of an object. info: of measured.polarity.
+VolumeInfo info_of(const Measured& measured, std::size_t object, const VolumeInfo& info) {
+    return measured.polarities.empty() || measured.polarities[object] == measured.polarity ? info : negated(info);
+}
+
 // JSON
 
 void print_json(Terminal& terminal, Source& source, const Measured& measured, std::int64_t shown) {
     const VolumeInfo& info = source.info();
     const Calibration& calibration = info.calibration;
     Json head = document("measure", info, source.interpolant(), source.tunnel_height());
+    if (!measured.polarities.empty()) head["polarity"] = name_of(PolarityChoice::both);
     head["tau"] = measured.tau ? Json(calibration.reported(*measured.tau)) : Json(nullptr);
     head["objects_are"] = measured.are_labels ? "labels" : "objects";
     head["samples"] = info.extent.voxels();
@@ -125,7 +129,8 @@ void print_json(Terminal& terminal, Source& source, const Measured& measured, st
     head["sizes"] = measured.tau || measured.are_labels ? sizes_json(size_distribution(measured.objects)) : Json(nullptr);
     add_reads(head, source.reads());
     print(terminal, head, "objects", shown, [&](std::int64_t i) {
-        Json json = measures_json(measured.objects[static_cast<std::size_t>(i)], info);
+        Json json = measures_json(measured.objects[static_cast<std::size_t>(i)], info_of(measured, static_cast<std::size_t>(i), info));
+        if (!measured.polarities.empty()) json["polarity"] = name_of(measured.polarities[static_cast<std::size_t>(i)]);
         json["reference"] = measured.references.empty() ? Json(nullptr) : Json(measured.references[static_cast<std::size_t>(i)]);
         json["note"] = measured.notes.empty() ? "" : measured.notes[static_cast<std::size_t>(i)];
         return json;
@@ -152,7 +157,6 @@ std::string measured_note(const Measured& measured, std::size_t i) {
 
 void print_objects(Terminal& terminal, const VolumeInfo& info, const Measured& measured, std::int64_t shown, bool thickness) {
     const bool flat = info.extent.rank == 2;
-    const Scale scale(info);
     double largest = 0;
     for (const ObjectMeasures& object : measured.objects) largest = std::max(largest, object.volume);
     const MeasureUnit unit = measure_unit(info, largest);
@@ -178,7 +182,7 @@ void print_objects(Terminal& terminal, const VolumeInfo& info, const Measured& m
                                      : measured.is_named ? measured.references[i]
                                                          : std::to_string(i + 1)};
         if (!measured.are_labels) row.push_back(voxel_word(object.id));
-        if (has_taus) row.push_back(scale.brief(object.tau));
+        if (has_taus) row.push_back(Scale(info_of(measured, i, info)).brief(object.tau));
         row.insert(row.end(), {measure_text(object.volume * unit.factor), measure_text(object.area), measure_text(object.feret.max),
                                measure_text(object.feret.min), fmt::format("{:.3f}", object.sphericity)});
         if (thickness) row.push_back(measure_text(object.thickness.median));
@@ -263,7 +267,7 @@ int run_measure(const Arguments& arguments, Terminal& terminal) {
     const auto all = static_cast<std::int64_t>(measured.objects.size());
     if (!arguments.output.empty()) {
         const WritingGuard guard;
-        write_measures(arguments.output, source.info(), measured.objects);
+        write_measures(arguments.output, source.info(), measured.objects, measured.polarities);
     }
     if (arguments.json) {
         print_json(terminal, source, measured,

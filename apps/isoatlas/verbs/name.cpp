@@ -109,7 +109,7 @@ int run_name(const Arguments& arguments, Terminal& terminal) {
     const Extent extent = sides.main().info().extent;
     NamesOfSides names;
     for (const Polarity polarity : {Polarity::high, Polarity::low}) {
-        const bool is_asked = !arguments.polarity || arguments.side() == polarity;
+        const bool is_asked = !arguments.side() || arguments.side() == polarity;
         if (is_asked && sides.holds(polarity)) of(names, polarity) = read_object_names(names_file(arguments, polarity), extent);
     }
     NamesOfSides before = names;

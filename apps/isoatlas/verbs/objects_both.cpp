@@ -218,15 +218,6 @@ void print_list(Terminal& terminal, const Arguments& arguments, const Tables& ta
 }  // namespace
 
 int run_objects_of_both(const Arguments& arguments, Terminal& terminal) {
-    const auto refuse = [&](bool is_given, const char* option) {
-        if (!is_given) return;
-        throw Error(ErrorKind::usage, {.what = std::string(option) + " is about one polarity",
-                                       .next = "choose --polarity high or --polarity low, or omit " + std::string(option)});
-    };
-    refuse(arguments.tau.has_value(), "--tau");
-    refuse(arguments.cavities, "--cavities");
-    refuse(arguments.both, "--both");
-    refuse(!arguments.curve.empty(), "--curve");
     const Tables tables = find_tables(arguments, terminal);
     if (arguments.json) {
         print_list_json(terminal, tables);

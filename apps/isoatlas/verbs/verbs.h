@@ -55,6 +55,12 @@ struct Verb {
 /// In the order of the help.
 [[nodiscard]] const std::vector<Verb>& verbs();
 
+/// --polarity both of a verb about one polarity, not about the list of both.
+[[nodiscard]] bool runs_for_each_polarity(const Arguments& arguments);
+/// Runs it for high and for low values: two parts in one text, one document ("isoatlas/both/1"), or two files (FILE-high.csv,
+/// FILE-low.csv). Nothing is printed and no file is left where one of them fails. Returns the greater exit code.
+int run_for_each_polarity(const Verb& verb, const Arguments& arguments, Terminal& terminal);
+
 /// nullptr when there is no such verb.
 [[nodiscard]] const Verb* find_verb(const std::string& name);
 

@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#include "data/source.h"
+#include "data/sides.h"
 #include "text/document.h"
 #include "text/terminal.h"
 #include "text/values.h"
@@ -56,12 +56,20 @@ std::vector<CheckResult> check_mesh(const Arguments& arguments, Json& head) {
     return verify_mesh(mesh);
 }
 
+std::vector<CheckResult> check_volume(const Arguments& arguments, Source& source, const AtlasVerifyOptions& options) {
+    if (source.is_store()) return verify_atlas(source.atlas(), options, source.context());
+    const VerifyOptions of_volume{.levels = arguments.levels, .interpolant = source.interpolant(), .tunnel_height = source.tunnel_height()};
+    return verify_volume(source.volume(), of_volume, source.context());
+}
+
 /// Of a store of both polarities, unless one is asked for, both.
-std::vector<CheckResult> check_store(const Arguments& arguments, Source& source, const AtlasVerifyOptions& options) {
-    std::vector<CheckResult> checks = verify_atlas(source.atlas(), options, source.context());
-    if (arguments.polarity || source.atlas().polarities() != PolarityChoice::both) return checks;
-    const Atlas low(arguments.file, AtlasOptions{.polarity = Polarity::low, .corrections = corrections_of(arguments)});
-    for (CheckResult& check : verify_atlas(low, options, source.context())) {
+std::vector<CheckResult> check_sides(const Arguments& arguments, Sides& sides, const AtlasVerifyOptions& options) {
+    Source& source = sides.main();
+    std::vector<CheckResult> checks = check_volume(arguments, source, options);
+    const bool is_both = arguments.polarity ? arguments.polarity == PolarityChoice::both
+                                            : source.is_store() && source.atlas().polarities() == PolarityChoice::both;
+    if (!is_both) return checks;
+    for (CheckResult& check : check_volume(arguments, sides.source(Polarity::low), options)) {
         check.name += "_of_low_values";
         checks.push_back(std::move(check));
     }
@@ -85,13 +93,12 @@ int run_verify(const Arguments& arguments, Terminal& terminal) {
         head["what"] = "mesh";
         checks = check_mesh(arguments, head);
     } else {
-        Source source(arguments, terminal);
+        Sides sides(arguments, terminal);
+        Source& source = sides.main();
         const AtlasVerifyOptions options{.levels = arguments.levels, .full = arguments.full, .seed = arguments.seed};
-        const VerifyOptions of_volume{
-            .levels = arguments.levels, .interpolant = source.interpolant(), .tunnel_height = source.tunnel_height()};
-        checks = source.is_store() ? check_store(arguments, source, options) : verify_volume(source.volume(), of_volume, source.context());
-        of_what = ", " + interpolant_text(source.info(), of_volume.interpolant, of_volume.tunnel_height);
-        head = document("verify", source.info(), of_volume.interpolant, of_volume.tunnel_height);
+        checks = check_sides(arguments, sides, options);
+        of_what = ", " + interpolant_text(source.info(), source.interpolant(), source.tunnel_height());
+        head = document("verify", source.info(), source.interpolant(), source.tunnel_height());
         head["what"] = source.is_store() ? "store" : "volume";
         head["levels"] = arguments.levels;
         if (source.is_store()) {
