@@ -44,6 +44,7 @@ test|python3-h5py|independent reader of stores
 test|python3-networkx|independent reader of the trees we write
 test|clang-format-19|format check
 test|clang-tidy-19|lint
+test|mold|links the many test programs
 bench|python3-vtk9|Flying Edges, the yardstick of surface extraction
 bench|python3-numpy|reads the volumes for VTK
 bench|xvfb|a display for VTK's ray caster, the yardstick of volume rendering

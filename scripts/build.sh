@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# Configures a preset and builds it: scripts/build.sh PRESET [TARGET...]. ccache is used when it is there.
+# Configures a preset and builds it: scripts/build.sh PRESET [TARGET...]. ccache and, with a
+# linker not chosen in LDFLAGS, mold are used when they are there.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 preset=$1
@@ -7,6 +8,7 @@ shift
 
 options=()
 if command -v ccache >/dev/null; then options+=(-DCMAKE_CXX_COMPILER_LAUNCHER=ccache); fi
+if command -v mold >/dev/null; then export LDFLAGS="${LDFLAGS:--fuse-ld=mold}"; fi
 mkdir -p "build/$preset"
 log=build/$preset/configure.log
 cmake --preset "$preset" "${options[@]}" >"$log" 2>&1 || {
