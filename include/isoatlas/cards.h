@@ -23,7 +23,8 @@ struct Card {
 /// Of all lines, by position. A line is on the card with which it overlaps most, the first of several, among the lines before it that have
 /// cards, are of its object, and background as it is or not; below kSameShape it has its own. The object at a higher isovalue is part of
 /// that at a lower one, so overlap is voxels / voxels, exactly (docs/theory/7-which-objects-matter.md#cards). What a line gets depends on
-/// the lines before it alone: first_entries() changes nothing. Cost: O(lines), and for each those of its object.
+/// the lines before it alone, and of an outline of low values on the lines inside it (is_background()): first_entries() changes nothing
+/// else. Cost: O(lines), and for each those of its object.
 [[nodiscard]] std::vector<Card> cards_of(const ObjectTable& table, const Extent& extent);
 
 }  // namespace isoatlas

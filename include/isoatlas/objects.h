@@ -96,11 +96,13 @@ struct RankOptions {
 /// That of the entry's own isovalue; empty when it is unknown.
 [[nodiscard]] std::optional<RecommendedIsovalue> isovalue_of(const ObjectTable& table, const ObjectEntry& entry);
 
-inline constexpr double kBackgroundPart = 2.0 / 3;
-inline constexpr double kBorderPart = 0.5;
-/// Is it background, nearly the box of the volume: an outline of more than kBackgroundPart of all voxels; or, of low values, that many
-/// around everything, reaching all sides, or any that reaches all sides with more than kBorderPart of the border? Pictures omit it.
-[[nodiscard]] bool is_background(const ObjectEntry& entry, const Extent& extent);
+inline constexpr double kBackgroundPart = 2.0 / 3, kBorderPart = 0.5, kShownInside = 0.6, kLeastBorderPart = 0.03;
+/// Is a line background, what lies around the objects (docs/theory/9-low-values.md#background)? An outline of more than kBackgroundPart of
+/// all voxels; of low values also that many around everything, reaching all sides; what reaches all sides with more than kBorderPart of the
+/// border; an outline of which other lines show kShownInside; and what lies along the border: on sides of every axis, with at least
+/// kLeastBorderPart of it and more than half the surface of a cube of its size. Pictures omit it. table: of first_entries(), an outline may
+/// lack the lines inside it. Cost: O(1); of an outline of low values O(entries).
+[[nodiscard]] bool is_background(const ObjectTable& table, std::size_t line, const Extent& extent);
 
 /// The first entries alone (0: all): what rank_objects() gives with that many at most.
 [[nodiscard]] ObjectTable first_entries(ObjectTable table, std::int64_t top);

@@ -38,11 +38,12 @@ std::optional<SmoothingComparison> compare_smoothing(const Atlas& atlas, double 
     if (info.extent.voxels() * static_cast<std::int64_t>(size_of(info.type)) > kMostBytes) return std::nullopt;
     Context silent = context;
     silent.progress = nullptr;
-    const ObjectTable table = atlas.objects({.top = 8}, silent);
+    const ObjectTable table = atlas.objects({.top = 0}, silent);
     if (table.entries.empty()) return std::nullopt;
-    const auto first = std::ranges::find_if(table.entries, [&](const ObjectEntry& entry) { return !is_background(entry, info.extent); });
+    std::size_t first = 0;
+    while (first < table.entries.size() && is_background(table, first, info.extent)) ++first;
     SmoothingComparison comparison;
-    comparison.tau = (first == table.entries.end() ? table.entries.front() : *first).best_tau;
+    comparison.tau = table.entries[first < table.entries.size() ? first : 0].best_tau;
     const CutOptions cut_options{.interpolant = atlas.interpolant(), .tunnel_height = atlas.tunnel_height()};
     report(context, only_phase("smooth"), 0);
     const Volume volume = atlas.volume(silent);

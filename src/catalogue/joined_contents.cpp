@@ -63,7 +63,7 @@ PageContents joined_contents(const StoreSides& sides, const Overview& high, cons
         if (is_low) entry.branch += behind;
         entry.inside = object.inside, entry.around = object.cavity_of;
         const ObjectTable& table = is_low ? low.objects : high.objects;
-        entry.is_background = is_background(table.entries[object.entry], sides.main.info().extent);
+        entry.is_background = is_background(table, object.entry, sides.main.info().extent);
         entry.border = is_low ? border_text(table.entries[object.entry].border, sides.main.info().extent) : "";
         entry.is_enclosed = object.is_enclosed;
         joined.entries.push_back(std::move(entry));

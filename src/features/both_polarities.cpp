@@ -43,7 +43,7 @@ public:
         for (const bool background : {false, true}) {
             for (const PolarGroup& group : groups) {
                 for (const std::size_t i : group.entries) {
-                    if (is_background(table(group.polarity).entries[i], extent) == background)
+                    if (is_background(table(group.polarity), i, extent) == background)
                         list_.push_back({group.polarity, i, -1, -1, false, ""});
                 }
             }
@@ -102,7 +102,8 @@ private:
         for (std::size_t i = 0; i < list_.size(); ++i) {
             const ObjectEntry& high = entry(list_[i]);
             if (list_[i].polarity == Polarity::low || high.id != cavity->object) continue;
-            const std::pair<bool, double> away{is_background(high, extent_), std::abs(high.best_tau - cavity->best_tau)};
+            const std::pair<bool, double> away{is_background(high_.objects, list_[i].entry, extent_),
+                                               std::abs(high.best_tau - cavity->best_tau)};
             if (away < least) closest = static_cast<std::int64_t>(i), least = away;
         }
         return closest;

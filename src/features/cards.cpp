@@ -19,7 +19,7 @@ std::vector<Card> cards_of(const ObjectTable& table, const Extent& extent) {
     std::unordered_map<std::int64_t, std::vector<std::size_t>> with_card;  // of each object
     for (std::size_t i = 0; i < table.entries.size(); ++i) {
         const ObjectEntry& entry = table.entries[i];
-        Card& card = cards.emplace_back(Card{.line = i, .is_background = is_background(entry, extent)});
+        Card& card = cards.emplace_back(Card{.line = i, .is_background = is_background(table, i, extent)});
         if (!entry.branch_top.exists()) continue;  // which object it is is not known
         std::vector<std::size_t>& others = with_card[entry.branch_top.number()];
         double most = 0;

@@ -1,5 +1,6 @@
 // The first entries of a table of objects, their notes there, and texts for the reasons of their isovalues.
 #include <algorithm>
+#include <cmath>
 #include <set>
 
 #include "features/keep_entries.h"
@@ -57,10 +58,49 @@ std::optional<RecommendedIsovalue> isovalue_of(const ObjectTable& table, const O
     return own == table.isovalues.end() ? std::nullopt : std::optional(*own);
 }
 
-bool is_background(const ObjectEntry& entry, const Extent& extent) {
-    const bool is_around = entry.border.is_known() && entry.border.sides == (extent.rank == 2 ? 15 : 63);
+namespace {
+
+bool reaches_all_sides(const BorderContact& border, int rank) { return border.sides == (rank == 2 ? 15 : 63); }
+
+bool reaches_all_axes(const BorderContact& border, int rank) {
+    for (int axis = 0; axis < rank; ++axis) {
+        if ((border.sides >> (2 * axis) & 3U) == 0) return false;
+    }
+    return true;
+}
+
+std::int64_t border_samples(const Extent& extent) {
+    std::int64_t inner = 1;
+    for (int axis = 0; axis < extent.rank; ++axis) inner *= std::max<std::int64_t>(extent.size[static_cast<std::size_t>(axis)] - 2, 0);
+    return extent.voxels() - inner;
+}
+
+/// More of its surface lies at the border than does of a cube with three of its six faces there.
+bool lies_along_border(const ObjectEntry& entry, const Extent& extent) {
+    const BorderContact& border = entry.border;
+    if (border.part < kLeastBorderPart || reaches_all_sides(border, extent.rank) || !reaches_all_axes(border, extent.rank)) return false;
+    const double half = extent.rank * std::pow(static_cast<double>(entry.voxels), (extent.rank - 1.0) / extent.rank);
+    return border.part * static_cast<double>(border_samples(extent)) > half;
+}
+
+/// Do other lines show most of it? Lines directly inside one are disjoint.
+bool is_shown_by_others(const ObjectTable& table, std::size_t line) {
+    std::int64_t shown = 0;
+    for (const ObjectEntry& other : table.entries) {
+        if (other.inside == static_cast<std::int64_t>(line)) shown += other.voxels;
+    }
+    return static_cast<double>(shown) >= kShownInside * static_cast<double>(table.entries[line].voxels);
+}
+
+}  // namespace
+
+bool is_background(const ObjectTable& table, std::size_t line, const Extent& extent) {
+    const ObjectEntry& entry = table.entries[line];
+    const bool is_low = entry.border.is_known(), is_around = is_low && reaches_all_sides(entry.border, extent.rank);
     if (is_around && entry.border.part > kBorderPart) return true;
-    return (entry.outline || is_around) && static_cast<double>(entry.voxels) > kBackgroundPart * static_cast<double>(extent.voxels());
+    const bool is_large = static_cast<double>(entry.voxels) > kBackgroundPart * static_cast<double>(extent.voxels());
+    if ((entry.outline || is_around) && is_large) return true;
+    return is_low && (lies_along_border(entry, extent) || (entry.outline && is_shown_by_others(table, line)));
 }
 
 namespace {

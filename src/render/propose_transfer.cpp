@@ -35,10 +35,11 @@ double next_above(const ObjectTable& table, const ObjectEntry& entry) {
 /// By ascending isovalue.
 std::vector<Best> best_isovalues(const ObjectTable& table, const Extent& extent, double range) {
     std::vector<Best> best;
-    for (const ObjectEntry& entry : table.entries) {
+    for (std::size_t i = 0; i < table.entries.size(); ++i) {
+        const ObjectEntry& entry = table.entries[i];
         const bool known =
             std::any_of(best.begin(), best.end(), [&](const Best& b) { return std::abs(b.tau - entry.best_tau) < kWidth / 2 * range; });
-        if (known || (table.entries.size() > 1 && is_background(entry, extent))) continue;
+        if (known || (table.entries.size() > 1 && is_background(table, i, extent))) continue;
         best.push_back({.tau = entry.best_tau,
                         .next = next_above(table, entry),
                         .size = std::cbrt(entry.measure),

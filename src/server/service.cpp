@@ -337,7 +337,7 @@ Response Service::label_answer(const Request& request) {
 }
 
 Response Service::several_answer(const Request& request) {
-    const Atlas& atlas = atlas_of_volume(request);
+    static_cast<void>(atlas_of_volume(request));  // not of a label volume
     const bool has_labels = request.path == "/api/segmentation";
     if (has_labels) check_labels_fit();
     const NumberedSides sides = numbered_sides(request);

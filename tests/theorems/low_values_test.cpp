@@ -198,7 +198,8 @@ void of_both_polarities_are_one_list() {
         if (list[i].inside >= 0) RC_ASSERT(list[static_cast<std::size_t>(list[i].inside)].polarity == list[i].polarity);
         if (list[i].cavity_of >= 0) RC_ASSERT(list[i].is_enclosed);
         if (list[i].cavity_of >= 0) RC_ASSERT(list[static_cast<std::size_t>(list[i].cavity_of)].polarity == Polarity::high);
-        if (is_background(entry(list[i]), volume.info.extent)) {
+        const isoatlas::ObjectTable& own = list[i].polarity == Polarity::high ? high_tables.objects : low_table;
+        if (is_background(own, list[i].entry, volume.info.extent)) {
             before = -1;
             continue;
         }
@@ -236,11 +237,46 @@ TEST(LowObjects, AndHighOnesAreRankedByWhatALineShows) {
 
 TEST(LowObjects, AroundEverythingAreBackground) {
     const isoatlas::Extent extent{3, {10, 10, 10}};
-    ObjectEntry entry = line(5, 300, true, 0);
-    for (const auto& [sides, part, expected] : {std::tuple{63, 0.51, true}, {63, 0.5, false}, {62, 0.9, false}, {0, 0.0, false}}) {
-        entry.border = {static_cast<std::uint8_t>(sides), part};
-        EXPECT_EQ(is_background(entry, extent), expected) << sides << " " << part;
+    isoatlas::ObjectTable table{.entries = {line(5, 300, true, 0)}};
+    for (const auto& [sides, part, expected] : {std::tuple{63, 0.51, true}, {63, 0.5, false}, {60, 0.9, false}, {0, 0.0, false}}) {
+        table.entries[0].border = {static_cast<std::uint8_t>(sides), part};
+        EXPECT_EQ(is_background(table, 0, extent), expected) << sides << " " << part;
     }
+}
+
+/// 488 samples lie at the border. A cube of 125 voxels has 75 samples on three faces: 15.4 %. Sides: all but one, one of every axis, none
+/// of the second axis, all.
+TEST(LowObjects, AlongTheBorderAreBackground) {
+    const isoatlas::Extent extent{3, {10, 10, 10}};
+    isoatlas::ObjectTable table{.entries = {line(5, 125, false, 0)}};
+    const std::vector<std::tuple<int, double, std::int64_t, bool>> cases{
+        {62, 0.155, 125, true},  {62, 0.153, 125, false}, {21, 0.155, 125, true}, {51, 0.9, 125, false},
+        {63, 0.155, 125, false}, {62, 0.029, 1, false},   {62, 0.031, 8, true}};
+    for (const auto& [sides, part, voxels, expected] : cases) {
+        table.entries[0].border = {static_cast<std::uint8_t>(sides), part}, table.entries[0].voxels = voxels;
+        EXPECT_EQ(is_background(table, 0, extent), expected) << sides << " " << part << " " << voxels;
+    }
+    const isoatlas::Extent flat{2, {10, 10, 1}};  // 36 samples; a square of 16 voxels has 8 on two edges: 22.2 %
+    for (const auto& [part, expected] : {std::tuple{0.223, true}, {0.22, false}}) {
+        table.entries[0].border = {5, part}, table.entries[0].voxels = 16;
+        EXPECT_EQ(is_background(table, 0, flat), expected) << part;
+    }
+}
+
+/// An outline of 500 voxels, with 300 of them in lines inside it; a line inside one of these does not count.
+TEST(LowObjects, ThatOtherLinesShowAreBackground) {
+    const isoatlas::Extent extent{3, {10, 10, 10}};
+    isoatlas::ObjectTable table{.entries = {line(9, 500, true, 0), line(5, 200, true, 0), line(5, 100, false, 0), line(2, 90, false, 0)}};
+    for (ObjectEntry& entry : table.entries) entry.inside = 0, entry.border = {1, 0.01};
+    table.entries[0].inside = -1, table.entries[3].inside = 1, table.entries[0].outline = true;
+    EXPECT_TRUE(is_background(table, 0, extent));
+    table.entries[2].voxels = 99;
+    EXPECT_FALSE(is_background(table, 0, extent));
+    table.entries[2].voxels = 100, table.entries[0].outline = false;
+    EXPECT_FALSE(is_background(table, 0, extent));
+    table.entries[0].outline = true, table.entries[0].border = {};  // of high values
+    EXPECT_FALSE(is_background(table, 0, extent));
+    for (std::size_t i = 1; i < table.entries.size(); ++i) EXPECT_FALSE(is_background(table, i, extent)) << i;
 }
 
 // Numbers.

@@ -173,11 +173,11 @@ std::vector<ChosenObject> ObjectDirectory::find_contours(std::span<const ObjectR
 }
 
 std::vector<ChosenObject> ObjectDirectory::first(std::int64_t count) {
-    const ObjectTable table = source_.objects({.top = count + 1});
+    const ObjectTable table = source_.objects({.top = 0});
     const Extent& extent = source_.info().extent;
     std::vector<ChosenObject> objects;
     for (std::size_t i = 0; i < table.entries.size() && std::ssize(objects) < count; ++i) {
-        if (table.entries.size() > 1 && is_background(table.entries[i], extent)) continue;
+        if (table.entries.size() > 1 && is_background(table, i, extent)) continue;
         objects.push_back(chosen(table.entries[i], static_cast<std::int64_t>(i) + 1));
     }
     return objects;

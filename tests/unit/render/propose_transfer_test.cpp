@@ -93,7 +93,7 @@ TEST(ProposedTransfer, BackgroundOnlyIfThereIsNothingElse) {
     table.entries = {entry_at(300, 900, 950)};
     table.entries[0].outline = true;
     EXPECT_EQ(propose_transfer(table, info_of(1000), kRange).size(), 1U);
-    EXPECT_TRUE(is_background(table.entries[0], info_of(1000).extent));
+    EXPECT_TRUE(is_background(table, 0, info_of(1000).extent));
     table.entries.push_back(entry_at(600, 900, 200));
     const std::vector<OpacityTent> tents = propose_transfer(table, info_of(1000), kRange);
     ASSERT_EQ(tents.size(), 1U);
