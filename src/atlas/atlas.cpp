@@ -35,11 +35,6 @@ std::int64_t whole_voxel(const StoredWindow& window, std::int64_t voxel) {
     return window.window.whole.index(window.info.extent.voxel(voxel) + window.window.origin);
 }
 
-Polarity polarity_to_open(const std::string& path, const AtlasOptions& options) {
-    if (options.polarity) return *options.polarity;
-    return Container(path).contents().polarities == PolarityChoice::low ? Polarity::low : Polarity::high;
-}
-
 /// Queries on the trees alone.
 struct Trees {
     Analysis analysis;
@@ -60,7 +55,7 @@ struct Atlas::Data {
     IoCounters reads;
 
     Data(const std::string& path, const AtlasOptions& options)
-        : store(path, polarity_to_open(path, options), options.corrections), samples(stored_samples(store, options.cache_bytes)) {}
+        : store(path, options.polarity, options.corrections), samples(stored_samples(store, options.cache_bytes)) {}
 
     [[nodiscard]] const Trees& trees_now() const {
         return *trees.get([this] { return std::make_unique<Trees>(analysis_of(store, {})); });

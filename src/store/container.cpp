@@ -82,8 +82,10 @@ Container::Container(const std::string& path, const Corrections& corrections)
     }
 }
 
-Container::Container(const std::string& path, Polarity polarity, const Corrections& corrections) : Container(path, corrections) {
-    contents_ = contents_of(contents_, polarity);
+Container::Container(const std::string& path, std::optional<Polarity> polarity, const Corrections& corrections)
+    : Container(path, corrections) {
+    const Polarity own = contents_.polarities == PolarityChoice::low ? Polarity::low : Polarity::high;
+    contents_ = contents_of(contents_, polarity.value_or(own));
 }
 
 void Container::damaged(const std::string& where, const std::string& what) const {

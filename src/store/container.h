@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -39,8 +40,9 @@ public:
     /// Reads header and contents. Throws Error: input (missing, not a store, incomplete, damaged), unsupported (a later version).
     /// All arrays, as in the file. corrections: of contents().volume, in memory.
     explicit Container(const std::string& path, const Corrections& corrections = {});
-    /// Those of one polarity, as those of a store of it alone (contents_of()). Throws as above, unsupported when it does not hold it.
-    Container(const std::string& path, Polarity polarity, const Corrections& corrections = {});
+    /// Those of one polarity, as those of a store of it alone (contents_of()); none: low where it holds low values alone, else high. Throws
+    /// as above, unsupported when it does not hold the polarity.
+    Container(const std::string& path, std::optional<Polarity> polarity, const Corrections& corrections = {});
 
     [[nodiscard]] const Header& header() const { return header_; }
     [[nodiscard]] const Contents& contents() const { return contents_; }

@@ -105,7 +105,7 @@ class Measure(harness.CliTest):
         line = self.run_ok("measure", "shells.nrrd", "--object", "low2").stdout.splitlines()
         self.assertEqual(len(line), 2)
         self.assertTrue(line[1].lstrip().startswith("low2 "), line)
-        for wrong in (["--object", "c1"], ["--object", "1", "--object", "low2"], ["--object", "1", "--min-voxels", "3"]):
+        for wrong in (["--object", "c1"], ["--object", "1", "--min-voxels", "3"]):
             self.run_error(2, "measure", "shells.nrrd", *wrong)
         self.run_error(6, "measure", "shells.nrrd", "--object", "99")
 

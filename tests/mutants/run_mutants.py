@@ -9,10 +9,12 @@ import json
 import pathlib
 import re
 import shlex
+import shutil
 import subprocess
 import sys
 import tempfile
 
+LINKER = ["-fuse-ld=mold"] if shutil.which("mold") else []
 # What the probe runs: rooms, and files of others.
 ROOMS = ("base", "field", "critical", "tree", "zones", "analysis", "features", "persistence", "levelset", "mesh", "formats")
 FILES = ("server/request_head.cpp", "atlas/build_fingerprint.cpp")
@@ -95,7 +97,7 @@ def check(arguments, commands, mutant):
             if done.returncode != 0:
                 return name, "DOES NOT COMPILE", done.stderr[:2000]
         probe = pathlib.Path(folder) / "probe"
-        link = [arguments.compiler, *arguments.probe, *objects, *arguments.libraries, "-o", probe]
+        link = [arguments.compiler, *LINKER, *arguments.probe, *objects, *arguments.libraries, "-o", probe]
         done = subprocess.run([str(word) for word in link], capture_output=True, text=True)
         if done.returncode != 0:
             return name, "DOES NOT LINK", done.stderr[:2000]
