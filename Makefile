@@ -7,7 +7,7 @@ SHELL := /bin/bash
 .DEFAULT_GOAL := help
 export VOLUME ARGS PREFIX SECONDS_PER_TARGET
 
-.PHONY: help demo quick test check build install format lint bench memory studies table131 fuzz asan tsan coverage clean
+.PHONY: help demo quick test check build install package format lint bench memory studies table131 fuzz asan tsan coverage clean
 
 help: ## this list
 	@awk -F ':.*## ' '/^[a-z0-9]+:.*## / { printf "  make %-10s %s\n", $$1, $$2 }' Makefile
@@ -27,6 +27,9 @@ build: ## the command line and the library, optimised: build/release/bin/isoatla
 
 install: build ## install to PREFIX (default /usr/local)
 	@cmake --install build/release --prefix "$${PREFIX:-/usr/local}"
+
+package: ## Debian packages and tarballs of the command line and the library: build/release/packages
+	@scripts/package.sh
 
 format: ## format all sources in place
 	@scripts/bootstrap.sh test

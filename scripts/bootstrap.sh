@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Installs the Debian packages that a step needs and that are missing, and says why. Nothing else is touched.
-#   scripts/bootstrap.sh [--list] GROUP...     groups: demo test bench fuzz
+#   scripts/bootstrap.sh [--list] GROUP...     groups: demo test bench fuzz package
 # Exit 0: all there. 2: something is missing and cannot be installed from here (the command to run is printed).
 # ISOATLAS_NO_BOOTSTRAP=1 skips the check, for systems whose libraries come from elsewhere.
 set -euo pipefail
@@ -42,6 +42,11 @@ test|chromium|opens the page
 test|python3-pil|independent reader of the pictures we write
 test|python3-h5py|independent reader of stores
 test|python3-networkx|independent reader of the trees we write
+test|dpkg-dev|finds what a Debian package depends on
+test|file|tells CPack what to strip
+test|zsh|completion of its users
+test|fish|completion of its users
+test|groff|manual pages without a warning
 test|clang-format-19|format check
 test|clang-tidy-19|lint
 test|mold|links the many test programs
@@ -49,6 +54,8 @@ bench|python3-vtk9|Flying Edges, the yardstick of surface extraction
 bench|python3-numpy|reads the volumes for VTK
 bench|xvfb|a display for VTK's ray caster, the yardstick of volume rendering
 bench|xauth|lets VTK at that display
+package|dpkg-dev|finds what a Debian package depends on
+package|file|tells CPack what to strip
 fuzz|clang-19|compiler with libFuzzer
 fuzz|libclang-rt-19-dev|runtime of libFuzzer and the sanitizers
 TABLE
@@ -60,9 +67,9 @@ for argument in "$@"; do
     case $argument in
         --list) list=yes ;;
         demo) groups+=(demo) ;;
-        test | bench | fuzz) groups+=(demo "$argument") ;;
+        test | bench | fuzz | package) groups+=(demo "$argument") ;;
         *)
-            echo "bootstrap: unknown group '$argument'; groups: demo test bench fuzz" >&2
+            echo "bootstrap: unknown group '$argument'; groups: demo test bench fuzz package" >&2
             exit 2
             ;;
     esac

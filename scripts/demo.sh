@@ -17,10 +17,22 @@ if [[ -n $volume && ! -e $volume ]]; then
     exit 2
 fi
 scripts/bootstrap.sh demo
-say "building (the first time takes a minute or two)"
+if [[ ! -x build/release/bin/isoatlas ]]; then
+    say "building (about 6 minutes of processor time, 3 on two processors)"
+fi
 scripts/build.sh release isoatlas_cli
 isoatlas=build/release/bin/isoatlas
 
+# An earlier demonstration stays whole until this one is.
+before=$out.before
+restore() {
+    [[ -d $before ]] || return 0
+    rm -rf "$out"
+    mv "$before" "$out"
+}
+restore  # of a run that was killed
+if [[ -d $out ]]; then cp -a "$out" "$before"; fi  # VOLUME may lie in it
+trap restore EXIT
 mkdir -p "$out"
 rm -f "$out"/object_*.ply "$out"/object_*.vtp "$out"/tree.json "$out"/objects.json
 if [[ -z $volume ]]; then
@@ -55,6 +67,7 @@ if [[ $number == 0 ]]; then
     echo "nothing in this volume rises above the noise; $isoatlas objects $volume --all lists everything"
 fi
 
+rm -rf "$before"
 say "done"
 cat <<TEXT
 $out/demo.atlas.html   open it in a browser: a picture of every object, and the isovalues that show it

@@ -61,6 +61,10 @@ await settled();
 await tab.keyboard.press("f");
 await hold(1);
 await tab.keyboard.press("c"); // clip: one ball is hollow
+await settled();
+await tab.getByRole("button", { name: "clip along z" }).click();
+await tab.getByRole("button", { name: "flip the clipping plane" }).click();
+await settled();
 await hold(1);
 await press("ArrowLeft", 8);
 await press("ArrowUp", 3);

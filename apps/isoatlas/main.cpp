@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "data/assume_inputs.h"
+#include "data/piped.h"
 #include "data/sides.h"
 #include "options/arguments.h"
 #include "text/failure.h"
@@ -41,10 +42,13 @@ int run(const std::vector<std::string>& words, Terminal& terminal) {
     if (!parsed.text.empty()) {
         terminal.out() << parsed.text;
     } else {
+        Piped piped(arguments, terminal);
         assume_inputs(arguments, terminal);
         arguments = with_sides(arguments);
         const Verb& verb = *find_verb(arguments.verb);
-        code = runs_for_each_polarity(arguments) ? run_for_each_polarity(verb, arguments, terminal) : verb.run(arguments, terminal);
+        code = piped.run([&] {
+            return runs_for_each_polarity(arguments) ? run_for_each_polarity(verb, arguments, terminal) : verb.run(arguments, terminal);
+        });
     }
     terminal.finish();
     tell_resources(terminal, start);
@@ -68,6 +72,7 @@ int run_and_report(const std::vector<std::string>& words, Terminal& terminal) {
     try {
         return run(words, terminal);
     } catch (...) {
+        terminal.forget();
         return report(completed(failure(), words), json, terminal);
     }
 }
@@ -80,5 +85,6 @@ int run_and_report(const std::vector<std::string>& words, Terminal& terminal) {
 int main(int argc, char** argv) {
     catch_signals();
     Terminal terminal;
+    if (argc > 0) terminal.set_program(argv[0]);
     return run_and_report({argv + 1, argv + argc}, terminal);
 }

@@ -61,7 +61,8 @@ class CliTest(unittest.TestCase):
     @classmethod
     def start(cls, arguments, **options):
         options.setdefault("stdout", subprocess.PIPE)
-        environment = dict(os.environ, **options.pop("environment", {}))
+        path = f"{pathlib.Path(CLI).parent}:{os.environ['PATH']}"   # hints begin with the name alone then
+        environment = {**os.environ, "PATH": path, **options.pop("environment", {})}
         return subprocess.run([CLI, *map(str, arguments)], cwd=cls.folder, stderr=subprocess.PIPE, text=True, env=environment,
                               timeout=1800 if SANITIZED else 300, **options)
 

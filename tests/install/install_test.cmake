@@ -12,6 +12,11 @@ require("the consumer wrote a surface" EXISTS ${WORK}/surface.ply)
 run("the installed command line" ${prefix}/${BINDIR}/isoatlas --version)
 require("it knows its version" output MATCHES "${VERSION}")
 
+foreach(file IN ITEMS man/man1/isoatlas.1 man/man1/isoatlas-extract.1 bash-completion/completions/isoatlas zsh/vendor-completions/_isoatlas
+  fish/vendor_completions.d/isoatlas.fish)
+  require("${file} is installed" EXISTS ${prefix}/share/${file})
+endforeach()
+
 # A minor version may change names: another one is refused.
 file(WRITE ${WORK}/other/CMakeLists.txt
   "cmake_minimum_required(VERSION 3.25)\nproject(other LANGUAGES CXX)\nfind_package(isoatlas 0.1 REQUIRED COMPONENTS core)\n")

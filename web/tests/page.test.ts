@@ -44,6 +44,34 @@ describe.skipIf(!browserFile || !existsSync(bundled))("the page", () => {
     await tab.close();
   });
 
+  it("begins with five pictures, and has two columns on a phone", async () => {
+    const many = page(
+      Array.from({ length: 9 }, (_, i) => branch({ id: i, rank: i, appears: 90 - i })),
+      Array.from({ length: 9 }, (_, i) => entry({ branch: i, id: i, picture: { image: pixel, frames: 1, side: 4 } })),
+    );
+    many.notes = ["-999 looks like a fill value"];
+    const { tab, problems } = await open(many);
+    await tab.setViewportSize({ width: 1400, height: 900 });
+    const boxes = await Promise.all((await tab.locator(".card .turntable").all()).map((picture) => picture.boundingBox()));
+    expect(boxes.slice(0, 5).map((box) => box!.y + box!.height < 500 && box!.y === boxes[0]!.y)).toEqual(Array(5).fill(true));
+    const chart = (await tab.locator(".overview").boundingBox())!;
+    expect([chart.y > boxes[4]!.y, chart.y < boxes[5]!.y]).toEqual([true, true]);
+    const above = await tab.evaluate(() => {
+      const main = document.querySelector("main") as HTMLElement;
+      return main.innerText.slice(0, main.innerText.indexOf("Object 1"));
+    });
+    expect(above.match(/\d+/g)?.length ?? 0).toBeLessThanOrEqual(5);
+    expect(await tab.locator("body").innerText()).not.toContain("--top");
+    await tab.getByRole("link", { name: "How it was read" }).click();
+    expect(await tab.locator(".about").innerText()).toContain("-999 looks like a fill value");
+    await tab.setViewportSize({ width: 390, height: 844 });
+    const [left, right, below] = await Promise.all([0, 1, 2].map((i) => tab.locator(".card").nth(i).boundingBox()));
+    expect([left!.y === right!.y, right!.x > left!.x, below!.y > left!.y, below!.x === left!.x]).toEqual([true, true, true, true]);
+    expect(await tab.evaluate(() => document.documentElement.scrollWidth)).toBeLessThanOrEqual(390);
+    expect(problems).toEqual([]);
+    await tab.close();
+  });
+
   it("shows more or fewer objects, by keyboard too, and how many are hidden", async () => {
     const { tab, problems } = await open(scene);
     const keep = tab.getByRole("slider", { name: /^Show the/ });

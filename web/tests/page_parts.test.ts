@@ -169,14 +169,14 @@ describe("hidden objects", () => {
   it("are counted, with the reason", () => {
     const why = "below noise level or very small.";
     expect(hiddenSentences(scene)).toEqual([
-      `1,234 objects in all, 2 shown. 1 more is significant (shown with --top 7). 1,231 not shown: ${why}`,
+      `1,234 objects in all, 2 shown. 1 more is significant. 1,231 not shown: ${why}`,
       `77 cavities in all, 1 shown. 76 not shown: ${why}`,
     ]);
   });
   it("are not mentioned where everything is shown", () => {
     const one = page([branch({})], []);
     one.found = { objects: { all: 1, significant: 1 }, cavities: { all: 0, significant: 0 } };
-    expect(hiddenSentences(one)).toEqual(["1 object in all, 0 shown. 1 more is significant (shown with --top 5)."]);
+    expect(hiddenSentences(one)).toEqual(["1 object in all, 0 shown. 1 more is significant."]);
   });
 });
 

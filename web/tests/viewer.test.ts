@@ -56,6 +56,30 @@ describe.skipIf(!canServe)("the viewer", () => {
     await other.tab.close();
   });
 
+  it("takes the keys of its actions while a slider or a menu has the focus", async () => {
+    const { tab } = await open();
+    await tab.getByRole("button", { name: /^Object 1/ }).click();
+    const box = tab.getByRole("textbox", { name: "isovalue" });
+    const before = await box.inputValue();
+    const slider = tab.getByRole("slider", { name: "isovalue, on the histogram" });
+    const area = (await slider.boundingBox())!;
+    await tab.mouse.move(area.x + area.width / 2, area.y + area.height / 2);
+    await tab.mouse.down();
+    await tab.mouse.move(area.x + area.width * 0.6, area.y + area.height / 2, { steps: 3 });
+    await tab.mouse.up();
+    await expect.poll(() => box.inputValue()).not.toBe(before);
+    expect(await slider.evaluate((element) => element === document.activeElement)).toBe(true);
+    const dragged = await box.inputValue();
+    await tab.keyboard.press("}");
+    await expect.poll(() => box.inputValue()).not.toBe(dragged);
+    const stepped = await box.inputValue();
+    await tab.keyboard.press("ArrowLeft"); // of the slider
+    await expect.poll(() => box.inputValue()).not.toBe(stepped);
+    await tab.keyboard.press("?");
+    expect(await tab.getByRole("dialog").isVisible()).toBe(true);
+    await tab.close();
+  });
+
   it("adds and removes objects, each at its own isovalue", async () => {
     const { tab } = await open();
     await tab.getByRole("button", { name: /^Object 4/ }).click();
@@ -104,8 +128,11 @@ describe.skipIf(!canServe)("the viewer", () => {
       return new Set(new Uint32Array(context.getImageData(0, 0, 64, 64).data.buffer)).size;
     });
     expect(colours).toBeGreaterThan(20);
+    await tab.setViewportSize({ width: 800, height: 400 }); // lower than the list
     await tab.keyboard.press("?");
     expect(await tab.getByRole("dialog").isVisible()).toBe(true);
+    expect(await tab.getByRole("dialog").evaluate((dialog) => dialog.scrollTop)).toBe(0);
+    expect((await tab.getByRole("heading", { name: "Keyboard shortcuts" }).boundingBox())!.y).toBeGreaterThan(0);
     await tab.close();
   });
 

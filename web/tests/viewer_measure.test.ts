@@ -78,7 +78,7 @@ describe.skipIf(!canServe)("a ball", () => {
     await expect.poll(size).toMatch(/enclosed volume\s+[\d.,]+ µm³/);
     expect(await size()).not.toMatch(/[mc]m[²³]/);
     expect(await tab.locator(".cards .card .about").first().innerText()).toContain("µm³");
-    expect(await tab.locator(".scale").innerText()).toMatch(/^\d+ µm$/);
+    await expect.poll(() => tab.locator(".scale").innerText()).toMatch(/^\d+ µm$/);
     expect(new URL(tab.url()).hash).toContain("unit=um");
     const other = await served.open(new URL(tab.url()).hash);
     expect(await other.tab.getByRole("combobox", { name: "unit of lengths" }).inputValue()).toBe("µm");

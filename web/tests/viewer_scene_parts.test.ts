@@ -15,15 +15,49 @@ import { countComponents } from "../src/viewer/api/count_components";
 import "../src/viewer/state/volume_state";
 import { readScene, writeScene } from "../src/viewer/export/scene_file";
 import { noteOf } from "../src/viewer/panels/scene_panel";
-import { add, change, isolate, NOTHING, shownAt, type State } from "../src/viewer/state/state";
+import { closedAgain, liesInside, SEE_THROUGH, seenThrough } from "../src/viewer/state/see_through";
+import { add, change, isolate, NOTHING, remove, shownAt, type State } from "../src/viewer/state/state";
 import { Surfaces } from "../src/viewer/api/surfaces";
 import { cell, tableCsv } from "../src/viewer/export/table_csv";
 import type { Mesh } from "../src/viewer/api/wire";
-import { scene as page } from "./sample";
+import { branch, entry, page as samplePage, scene as page } from "./sample";
 
 const schemaFile = join(process.env.ISOATLAS_SCHEMAS ?? "nowhere", "scene.schema.json");
 const camera: Camera = { view: [-1, 2, 3, 0, 0, 0.5], flat: false, height: 12.5, cut: null };
 const two: State = { ...change(add(isolate(NOTHING, 0, 10), 1, 20.5), 1, { colour: "#12ab00", opacity: 0.5 }), view: [1, 2, 3, 4, 5, 6] };
+
+describe("what lies inside another object", () => {
+  // 0 holds 1, which holds the cavity 2; 3 is beside them.
+  const nested = samplePage([branch({})], [entry({}), entry({ inside: 0 }), entry({ around: 1 }), entry({})]);
+  const opacities = (state: State): number[] => state.shown.map((shown) => shown.opacity);
+  const added = (state: State, i: number): State => seenThrough(nested, add(state, i, 10), i);
+
+  it("is found through all that is between", () => {
+    expect([0, 1, 3, -1].map((outer) => liesInside(nested, 2, outer))).toEqual([true, true, false, true]);
+    expect([1, 2, 3].map((inner) => liesInside(nested, 0, inner))).toEqual([false, false, false]);
+    expect([liesInside(nested, 1, 1), liesInside(nested, -1, 0), liesInside(nested, -1, -1)]).toEqual([false, false, false]);
+  });
+
+  it("makes the outer one transparent, whichever comes first", () => {
+    const skin = isolate(NOTHING, 0, 10);
+    expect(opacities(added(skin, 3))).toEqual([1, 1]);
+    expect(opacities(added(skin, 2))).toEqual([SEE_THROUGH, 1]);
+    expect(opacities(added(isolate(NOTHING, 2, 10), 0))).toEqual([1, SEE_THROUGH]);
+    expect(opacities(added(isolate(NOTHING, -1, 10), 3))).toEqual([SEE_THROUGH, 1]);
+    expect(opacities(added(change(skin, 0, { opacity: 0.8 }), 2))).toEqual([0.8, 1]); // as the user wants it
+    expect(opacities(added(change(added(skin, 2), 0, { opacity: 1 }), 3))).toEqual([1, 1, 1]);
+  });
+
+  it("leaves it opaque again when the last one is removed", () => {
+    const all = added(added(isolate(NOTHING, 0, 10), 1), 2);
+    expect(opacities(all)).toEqual([SEE_THROUGH, SEE_THROUGH, 1]);
+    const without = closedAgain(nested, remove(all, 2), 2);
+    expect(opacities(without)).toEqual([SEE_THROUGH, 1]);
+    expect(opacities(closedAgain(nested, remove(without, 1), 1))).toEqual([1]);
+    const chosen = change(isolate(NOTHING, 0, 10), 0, { opacity: 0.6 });
+    expect(opacities(closedAgain(nested, remove(added(chosen, 1), 1), 1))).toEqual([0.6]);
+  });
+});
 
 describe("surfaces", () => {
   interface Asked {

@@ -11,7 +11,7 @@
 #include <isoatlas/version.h>
 #include <CLI/CLI.hpp>
 
-#include "options/suggest.h"
+#include "options/parse_errors.h"
 #include "options/verb_options.h"
 #include "options/words.h"
 #include "verbs/verbs.h"
@@ -19,11 +19,9 @@
 namespace isoatlas::cli {
 namespace {
 
-[[noreturn]] void usage(const std::string& what, const std::string& next, const std::string& expected = {}) {
-    throw Error(ErrorKind::usage, {.what = what, .expected = expected, .next = next});
+bool reads_volumes(const std::string& verb) {
+    return verb != "phantom" && verb != "completion" && verb != "manual" && verb != "dump" && verb != "ask";
 }
-
-bool reads_volumes(const std::string& verb) { return verb != "phantom" && verb != "completion" && verb != "dump" && verb != "ask"; }
 
 std::unique_ptr<CLI::App> make_parser(const Verb& verb, Arguments& arguments, Typed& typed) {
     auto app = std::make_unique<CLI::App>(verb.summary, "isoatlas " + verb.name);
@@ -33,7 +31,7 @@ std::unique_ptr<CLI::App> make_parser(const Verb& verb, Arguments& arguments, Ty
                                            : verb.name == "ask"     ? "Address that `isoatlas view` printed"
                                                                     : "");
     operand->type_name("");
-    if (verb.name != "phantom") operand->required();
+    if (verb.name != "phantom" && verb.name != "manual") operand->required();
     if (verb.name == "dump") app->add_option("PART", arguments.part, "Part to print; default: a list of all parts")->type_name("");
     if (verb.name == "name")
         app->add_option("OBJECT", arguments.part, "An object (2, c3, low2, v81275@150), then its name; nothing: list the names")
@@ -52,14 +50,6 @@ std::unique_ptr<CLI::App> make_parser(const Verb& verb, Arguments& arguments, Ty
     for (const std::string& example : verb.examples) examples += "  " + example + "\n";
     app->footer(examples + "\nExit codes: isoatlas --help. More: docs/cli.md");
     return app;
-}
-
-std::vector<std::string> option_names(const CLI::App& app) {
-    std::vector<std::string> names;
-    for (const CLI::Option* option : app.get_options()) {
-        for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
-    }
-    return names;
 }
 
 void convert_gaussian(const std::string& word, Arguments& arguments) {
@@ -162,37 +152,6 @@ void convert(const CLI::App& app, const Typed& typed, Arguments& arguments) {
     check_both(arguments);
 }
 
-[[noreturn]] void explain(const CLI::App& app, const std::string& verb, const std::vector<std::string>& words, const std::string& message) {
-    const std::vector<std::string> known = option_names(app);
-    for (const std::string& word : words) {
-        const std::string name = word.substr(0, word.find('='));
-        if (word.rfind("--", 0) != 0 || word == "--" || std::count(known.begin(), known.end(), name) > 0) continue;
-        const std::string near = nearest(name, known);
-        usage("`isoatlas " + verb + "` has no option " + name,
-              (near.empty() ? "" : "did you mean " + near + "? ") + ("all options: isoatlas " + verb + " --help"));
-    }
-    usage(message, "isoatlas " + verb + " --help");
-}
-
-/// Rejects empty values (an unset variable of a script): CLI11 would take the next word instead.
-void refuse_empty_values(const CLI::App& app, const std::vector<std::string>& words) {
-    for (std::size_t i = 0; i < words.size(); ++i) {
-        const std::size_t sign = words[i].find('=');
-        const std::string name = words[i].substr(0, sign);
-        const CLI::Option* option = name.starts_with('-') ? app.get_option_no_throw(name) : nullptr;
-        if (option == nullptr || option->get_items_expected_max() == 0) continue;
-        const bool is_empty = sign == std::string::npos ? i + 1 < words.size() && words[i + 1].empty() : sign + 1 == words[i].size();
-        if (is_empty) usage(name + " has an empty value", "give it a value, or omit it");
-    }
-}
-
-[[noreturn]] void unknown_verb(const std::string& word) {
-    std::vector<std::string> names{"help"};
-    for (const Verb& verb : verbs()) names.push_back(verb.name);
-    const std::string near = nearest(word, names);
-    usage("there is no verb \"" + word + "\"", near.empty() ? "isoatlas --help" : "did you mean `isoatlas " + near + "`?", list_of(names));
-}
-
 /// Moves options before the verb behind it, so that `isoatlas --json info FILE` works. Returns the verb, "" if there is none.
 std::string take_verb(std::vector<std::string>& words) {
     for (std::size_t i = 0; i < words.size(); ++i) {
@@ -200,7 +159,7 @@ std::string take_verb(std::vector<std::string>& words) {
             ++i;
         } else if (words[i].empty()) {
             usage("the verb or file is an empty word", "isoatlas --help");
-        } else if (words[i][0] != '-') {
+        } else if (words[i][0] != '-' || words[i] == "-") {
             const std::string verb = words[i];
             std::vector<std::string> before(words.begin(), words.begin() + static_cast<std::ptrdiff_t>(i));
             words.erase(words.begin(), words.begin() + static_cast<std::ptrdiff_t>(i) + 1);
@@ -211,12 +170,14 @@ std::string take_verb(std::vector<std::string>& words) {
     return "";
 }
 
+bool is_version(const std::string& word) { return word == "--version" || word == "-V"; }
+
 Parsed parse_without_verb(const std::vector<std::string>& words) {
     Parsed parsed;
     if (words.empty()) parsed.text = greeting();
     for (const std::string& word : words) {
         if (word == "-h" || word == "--help") parsed.text = overview();
-        if (word == "--version" && parsed.text.empty()) parsed.text = "isoatlas " ISOATLAS_VERSION "\n";
+        if (is_version(word) && parsed.text.empty()) parsed.text = "isoatlas " ISOATLAS_VERSION "\n";
     }
     if (parsed.text.empty()) usage("no verb after " + words[0], "isoatlas --help");
     return parsed;
@@ -242,7 +203,8 @@ Parsed parse(const std::vector<std::string>& given) {
     std::vector<std::string> words = join_numbers(given);
     std::string name = take_verb(words);
     std::error_code ignored;
-    if (find_verb(name) == nullptr && name != "help" && std::filesystem::exists(name, ignored)) {  // isoatlas FILE
+    const bool is_verb = find_verb(name) != nullptr || name == "help" || name.empty();
+    if (!is_verb && (is_path(name) || std::filesystem::exists(name, ignored))) {  // isoatlas FILE
         words.insert(words.begin(), name);
         name = "atlas";
     }
@@ -255,7 +217,7 @@ Parsed parse(const std::vector<std::string>& given) {
     Typed typed;
     parsed.arguments.verb = name;
     const auto parser = make_parser(*verb, parsed.arguments, typed);
-    if (std::count(words.begin(), words.end(), "--version") > 0) return parse_without_verb({"--version"});
+    if (std::ranges::any_of(words, is_version)) return parse_without_verb({"--version"});
     refuse_empty_values(*parser, words);
     try {
         std::vector<std::string> reversed(words.rbegin(), words.rend());  // CLI11 takes words from the back
@@ -264,17 +226,30 @@ Parsed parse(const std::vector<std::string>& given) {
         parsed.text = parser->help();
         return parsed;
     } catch (const CLI::ParseError& error) {
-        explain(*parser, name, words, error.what());
+        explain(*parser, name, words, error);
     }
     convert(*parser, typed, parsed.arguments);
     return parsed;
 }
 
-std::vector<std::string> options_of(const std::string& verb) {
+std::vector<DescribedOption> described_options(const std::string& verb) {
     Arguments arguments;
     Typed typed;
     const Verb* found = find_verb(verb);
-    return found == nullptr ? std::vector<std::string>{} : option_names(*make_parser(*found, arguments, typed));
+    std::vector<DescribedOption> options;
+    if (found == nullptr) return options;
+    const auto parser = make_parser(*found, arguments, typed);
+    for (const CLI::Option* option : parser->get_options()) {
+        if (option->get_lnames().empty()) continue;  // the operand
+        const bool has_value = option->get_items_expected_max() > 0;
+        options.push_back({.short_names = option->get_snames(),
+                           .long_names = option->get_lnames(),
+                           .value = has_value ? option->get_type_name() : "",
+                           .group = option->get_group(),
+                           .meaning = option->get_description(),
+                           .is_required = option->get_required()});
+    }
+    return options;
 }
 
 }  // namespace isoatlas::cli

@@ -103,7 +103,16 @@ struct Parsed {
 /// Throws Error{usage} with a next step (did you mean ...?) for an invalid command line.
 [[nodiscard]] Parsed parse(const std::vector<std::string>& words);
 
-/// The long options of a verb, for completion.
-[[nodiscard]] std::vector<std::string> options_of(const std::string& verb);
+/// An option as the help, completions and manual pages describe it.
+struct DescribedOption {
+    std::vector<std::string> short_names, long_names;  ///< without dashes
+    std::string value;                                 ///< "T", "high|low|both"; empty: a flag
+    std::string group;                                 ///< "Options", "Input options", ...
+    std::string meaning;
+    bool is_required = false;
+};
+
+/// The options of a verb.
+[[nodiscard]] std::vector<DescribedOption> described_options(const std::string& verb);
 
 }  // namespace isoatlas::cli

@@ -22,8 +22,8 @@ inline constexpr bool kIsVector<std::vector<T>> = true;
 
 /// An option that takes a number, or several for a vector, each read by read_number(): CLI11 would read an empty value as 0.
 template <class T>
-CLI::Option* add_number(CLI::App& app, const std::string& name, T& value, const std::string& meaning) {
-    const auto take = [&value, name](const CLI::results_t& words) {
+CLI::Option* add_number(CLI::App& app, const std::string& names, T& value, const std::string& meaning) {
+    const auto take = [&value, name = names.substr(0, names.find(','))](const CLI::results_t& words) {
         if constexpr (kIsVector<T>) {
             for (const std::string& word : words) value.push_back(parse_number<typename T::value_type>(name, word));
         } else if constexpr (std::is_arithmetic_v<T>) {
@@ -33,7 +33,7 @@ CLI::Option* add_number(CLI::App& app, const std::string& name, T& value, const 
         }
         return true;
     };
-    CLI::Option* option = app.add_option(name, take, meaning);
+    CLI::Option* option = app.add_option(names, take, meaning);
     if constexpr (kIsVector<T>) option->expected(CLI::detail::expected_max_vector_size);
     return option;
 }

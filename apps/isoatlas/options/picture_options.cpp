@@ -18,7 +18,7 @@ void add_picture(CLI::App& app, Arguments& arguments, PictureWords& words) {
     const auto add = [&](const char* name, auto& value, const char* meaning, const char* type) {
         return add_word_or_number(app, name, value, meaning)->type_name(type);
     };
-    add("--tau", words.taus, "Surface of everything at these isovalues (calibrated)", "T");
+    add("--tau,--isovalue,--threshold", words.taus, "Surface of everything at these isovalues (calibrated)", "T");
     add("--object", words.objects, "Objects (2, v81275, a name) and cavities (c3), each at an isovalue; default: its best one", "REF[@T]");
     add("--contour", words.contours, "Contours: cavities (c3), or ids of `objects --tau`, each at an isovalue", "REF[@T]");
     add("--cavities", words.cavities, "Only the walls of the cavities of these objects, each at an isovalue", "REF[@T]");

@@ -14,7 +14,7 @@ void add_output(CLI::App& app, Arguments& arguments, const std::string& formats,
 }
 
 void add_tau(CLI::App& app, Typed& typed, const std::string& meaning) {
-    add_number(app, "--tau", typed.tau, meaning + ", in the file's (calibrated) values")->type_name("T");
+    add_number(app, "--tau,--isovalue,--threshold", typed.tau, meaning + ", in the file's (calibrated) values")->type_name("T");
 }
 
 void add_build(CLI::App& app, Arguments& arguments, Typed& typed) {

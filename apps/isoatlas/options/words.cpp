@@ -151,6 +151,8 @@ std::vector<std::string> join_numbers(const std::vector<std::string>& words) {
     std::vector<std::string> joined;
     for (std::size_t i = 0; i < words.size(); ++i) {
         joined.push_back(words[i]);
+        const bool is_output = words[i] == "-o" || words[i] == "--output";
+        if (is_output && i + 1 < words.size() && words[i + 1].starts_with("-.")) joined.back() = "--output=" + words[++i];
         if (words[i] != "--dims" && words[i] != "--spacing" && words[i] != "--origin") continue;
         std::string numbers;
         while (i + 1 < words.size() && is_number(words[i + 1])) numbers += (numbers.empty() ? "" : ",") + words[++i];

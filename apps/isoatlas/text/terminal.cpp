@@ -5,12 +5,16 @@
 #include <cerrno>
 #include <cstdlib>
 #include <cstring>
+#include <fstream>
+#include <sstream>
 #include <streambuf>
 #include <string_view>
+#include <thread>
 
 #include <unistd.h>
 
 #include <isoatlas/error.h>
+#include <isoatlas/shell_word.h>
 #include <isoatlas/text.h>
 
 namespace isoatlas::cli {
@@ -22,11 +26,14 @@ namespace {
                                       .next = error == EPIPE ? "keep the reader of the pipe open" : "send it to a place with free space"});
 }
 
-/// File names may hold any byte: invalid UTF-8 and control characters are escaped, line ends are kept.
-void talk(const std::string& line) {
-    const std::string text = header_text(written_name(line), /*lines=*/true) + "\n";
-    // A failed write of a message is not an error.
-    [[maybe_unused]] const ssize_t written = ::write(STDERR_FILENO, text.data(), text.size());
+/// Is there a program of this name on the path of the shell?
+bool is_on_path(const std::string& name) {
+    const char* path = std::getenv("PATH");
+    std::istringstream folders(path == nullptr ? "" : path);
+    for (std::string folder; std::getline(folders, folder, ':');) {
+        if (::access((folder + "/" + name).c_str(), X_OK) == 0) return true;
+    }
+    return false;
 }
 
 bool colours_wanted(int file) {
@@ -44,6 +51,7 @@ public:
 
     /// Where text goes: nullptr: standard output.
     void send_to(std::string* text) { text_ = text; }
+    [[nodiscard]] bool is_collecting() const { return text_ != nullptr; }
     void drop() { empty(); }
 
     /// Results are valid UTF-8, whatever file names they contain. An incomplete character waits for its remaining bytes, unless this is the
@@ -85,8 +93,14 @@ private:
     void write(std::string_view text) {
         if (text_ != nullptr) {
             text_->append(text);
-            return;
+        } else {
+            write_bytes(text);
         }
+    }
+
+public:
+    /// To standard output, as they are.
+    void write_bytes(std::string_view text) {
         while (!text.empty()) {
             const ssize_t written = ::write(STDOUT_FILENO, text.data(), text.size());
             if (written < 0 && errno == EINTR) continue;
@@ -99,6 +113,7 @@ private:
         }
     }
 
+private:
     std::array<char, 1 << 16> bytes_;
     std::string* text_ = nullptr;
 };
@@ -129,13 +144,39 @@ std::string Terminal::collected(const std::function<void()>& print) {
     return text;
 }
 
+void Terminal::forget() { buffer_->drop(); }
+
+void Terminal::send_file(const std::string& path) {
+    finish();
+    std::ifstream file(path, std::ios::binary);
+    std::array<char, 1 << 16> block;
+    while (file.read(block.data(), block.size()), file.gcount() > 0)
+        buffer_->write_bytes({block.data(), static_cast<std::size_t>(file.gcount())});
+}
+
+void Terminal::set_program(const std::string& path) {
+    if (path.find('/') != std::string::npos && !is_on_path("isoatlas")) program_ = shell_word(path);
+}
+
+/// File names may hold any byte: invalid UTF-8 and control characters are escaped, line ends are kept.
+void Terminal::talk(const std::string& line) {
+    if (out_.good() && !buffer_->is_collecting() && std::this_thread::get_id() == owner_) out_.flush();
+    const std::string text = header_text(written_name(line), /*lines=*/true) + "\n";
+    // A failed write of a message is not an error.
+    [[maybe_unused]] const ssize_t written = ::write(STDERR_FILENO, text.data(), text.size());
+}
+
 void Terminal::say(const std::string& line) {
     if (!style_.quiet) talk(line);
 }
 
 void Terminal::warn(const std::string& line) { talk("warning: " + line); }
 
-void Terminal::next(const std::string& command) { say("next: " + command); }
+void Terminal::next(const std::string& command) {
+    constexpr std::string_view name = "isoatlas";
+    if (!style_.hints) return;
+    say("next: " + (command.starts_with("isoatlas ") ? program_ + command.substr(name.size()) : command));
+}
 
 void Terminal::detail(const std::string& line) {
     if (style_.verbose > 0) talk(line);

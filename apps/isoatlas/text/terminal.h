@@ -5,13 +5,14 @@
 #include <memory>
 #include <ostream>
 #include <string>
+#include <thread>
 
 namespace isoatlas::cli {
 
 class Terminal {
 public:
     struct Style {
-        bool quiet = false, no_color = false;
+        bool quiet = false, no_color = false, hints = true;
         int verbose = 0;
     };
     Terminal();
@@ -26,13 +27,19 @@ public:
     [[nodiscard]] std::ostream& out();
     /// Flushes and checks standard output: call before reporting success.
     void finish();
+    /// Of a verb that failed: what it printed and what is not written yet.
+    void forget();
+    /// The bytes of a file, to standard output.
+    void send_file(const std::string& path);
     /// What `print` writes to out(), instead of standard output.
     [[nodiscard]] std::string collected(const std::function<void()>& print);
 
-    /// One line on standard error unless --quiet.
+    /// One line on standard error unless --quiet, behind what was printed before it; so all that follow.
     void say(const std::string& line);
     /// One line on standard error, also with --quiet.
     void warn(const std::string& line);
+    /// How the program was started: the first word of the commands of next(), where the shell does not find `isoatlas`.
+    void set_program(const std::string& path);
     /// "next: COMMAND" on standard error unless --quiet.
     void next(const std::string& command);
     /// One line on standard error with -v.
@@ -42,10 +49,13 @@ public:
     [[nodiscard]] std::string bold(const std::string& text) const;  ///< of results; no colours unless standard output shows them
 
 private:
+    void talk(const std::string& line);
     class Buffer;
     std::unique_ptr<Buffer> buffer_;
     std::ostream out_;
     Style style_;
+    std::string program_ = "isoatlas";
+    std::thread::id owner_ = std::this_thread::get_id();  ///< which prints; others may talk
 };
 
 }  // namespace isoatlas::cli

@@ -128,15 +128,29 @@ const std::vector<Verb> kVerbs{
      run_dump},
     {"completion",
      "SHELL",
-     "Print a completion script for bash.",
-     {"isoatlas completion bash", "source <(isoatlas completion bash)",
-      "isoatlas completion bash > ~/.local/share/bash-completion/completions/isoatlas"},
+     "Print a completion script for bash, zsh or fish.",
+     {"source <(isoatlas completion bash)", "isoatlas completion zsh > ~/.zfunc/_isoatlas",
+      "isoatlas completion fish > ~/.config/fish/completions/isoatlas.fish"},
      run_completion},
+    {"manual",
+     "[VERB]",
+     "Print the manual page of isoatlas or of a verb, for man.",
+     {"isoatlas manual | man -l -", "isoatlas manual extract | man -l -", "isoatlas manual view > isoatlas-view.1"},
+     run_manual},
+};
+
+/// Of the help.
+const std::vector<VerbGroup> kGroups{
+    {"Explore", {"atlas", "view", "info", "objects", "measure", "spectrum", "tree", "handles", "name"}},
+    {"Export", {"extract", "label", "render", "animate", "convert", "build"}},
+    {"Check", {"verify"}},
+    {"For experts", {"ask", "dump", "table131", "phantom", "completion", "manual"}},
 };
 
 }  // namespace
 
 const std::vector<Verb>& verbs() { return kVerbs; }
+const std::vector<VerbGroup>& verb_groups() { return kGroups; }
 
 const Verb* find_verb(const std::string& name) {
     for (const Verb& verb : verbs()) {
@@ -158,8 +172,14 @@ std::string greeting() {
 }
 
 std::string overview() {
-    std::string text = greeting() + "\nVerbs:\n";
-    for (const Verb& verb : verbs()) text += fmt::format("  {:<11} {:<12} {}\n", verb.name, verb.operand, verb.summary);
+    std::string text = greeting();
+    for (const VerbGroup& group : kGroups) {
+        text += fmt::format("\n{}:\n", group.title);
+        for (const char* name : group.verbs) {
+            const Verb& verb = *find_verb(name);
+            text += fmt::format("  {:<11} {:<12} {}\n", verb.name, verb.operand, verb.summary);
+        }
+    }
     text +=
         "\nEvery verb has --help with examples, --json for one JSON document on standard output, --quiet and --threads N.\n"
         "Results go to standard output, messages and progress to standard error.\n"

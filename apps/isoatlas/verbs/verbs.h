@@ -45,6 +45,7 @@ int run_ask(const Arguments& arguments, Terminal& terminal);
 int run_dump(const Arguments& arguments, Terminal& terminal);
 int run_verify(const Arguments& arguments, Terminal& terminal);
 int run_completion(const Arguments& arguments, Terminal& terminal);
+int run_manual(const Arguments& arguments, Terminal& terminal);
 
 struct Verb {
     std::string name, operand, summary;
@@ -54,6 +55,13 @@ struct Verb {
 
 /// In the order of the help.
 [[nodiscard]] const std::vector<Verb>& verbs();
+
+struct VerbGroup {
+    std::string title;
+    std::vector<const char*> verbs;
+};
+/// Every verb is in one of them.
+[[nodiscard]] const std::vector<VerbGroup>& verb_groups();
 
 /// --polarity both of a verb about one polarity, not about the list of both.
 [[nodiscard]] bool runs_for_each_polarity(const Arguments& arguments);

@@ -54,7 +54,7 @@ VolumeInfo load_calibrated(VolumeReader& reader, MissingScan& scan, const Alloca
     VolumeInfo loaded = reader.info();
     loaded.type = ValueType::f64;
     loaded.calibration = {};
-    loaded.notes.push_back("the calibration slope is negative: it was applied to the samples, which are float64 now");
+    loaded.notes.emplace_back("the calibration slope is negative: it was applied to the samples, which are float64 now");
     scan.replace(loaded, bytes);
     return loaded;
 }

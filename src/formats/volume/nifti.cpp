@@ -127,7 +127,7 @@ std::int64_t data_offset(const std::string& path, const NiftiHeader& header, std
     }
     const std::int64_t header_size = header.version == 1 ? kNifti1HeaderBytes : kNifti2HeaderBytes;
     if (!header.pair && offset == 0) {
-        notes.push_back("the header does not say where the samples start: assumed directly after it");
+        notes.emplace_back("the header does not say where the samples start: assumed directly after it");
         return header_size + 4;
     }
     if (!header.pair && offset < static_cast<double>(header_size)) {

@@ -83,7 +83,7 @@ VtkExtent read_vtk_extent(const std::string& path, const pugi::xml_node& grid, c
     const VtkExtent whole = parse_extent(path, grid, "WholeExtent");
     if (!piece.attribute("Extent")) return whole;
     const VtkExtent part = parse_extent(path, piece, "Extent");
-    if (part.low != whole.low || part.size != whole.size) notes.push_back("the file holds only a part of the whole extent of its grid");
+    if (part.low != whole.low || part.size != whole.size) notes.emplace_back("the file holds only a part of the whole extent of its grid");
     return part;
 }
 

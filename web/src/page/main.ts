@@ -24,6 +24,16 @@ const sides: Record<string, string> = {
   both: " Objects of high values (samples of at least an isovalue) and of low values (of at most one).",
 };
 
+/** Above the pictures: what it is, in a line. */
+function head(page: Page): HTMLElement {
+  const { volume } = page;
+  const notes = page.notes?.length ?? 0;
+  const link = notes > 0 ? html("a", { href: "#about" }, "How it was read") : null;
+  const size = `${volume.size.join(" × ")} samples${volume.valueUnit ? `, values in ${volume.valueUnit}` : ""}. `;
+  return html("header", {}, html("h1", {}, volume.name), html("p", {}, size, link));
+}
+
+/** Below them: what is known of the volume, and what was found in it. */
 function about(page: Page): HTMLElement {
   const { volume } = page;
   const side = sides[page.polarity ?? "high"] ?? "";
@@ -33,9 +43,9 @@ function about(page: Page): HTMLElement {
     volume.low === volume.high ? `all of them ${value(volume.low)}${unit}` : `values ${value(volume.low)} to ${value(volume.high)}${unit}`;
   const noise = volume.noise > 0 ? `, noise about ${value(Number(volume.noise.toPrecision(2)))}` : "";
   return html(
-    "header",
-    { class: "about" },
-    html("h1", {}, volume.name),
+    "section",
+    { class: "about", id: "about" },
+    html("h2", {}, "About this volume"),
     html("p", {}, `${volume.size.join(" × ")} samples, ${volume.type}, ${range}${noise}${spacing}.${side}`),
     ...verdict(page).map((words) => html("p", {}, words)),
     ...(page.notes ?? []).map((words) => html("p", { class: "assumed" }, `Note: ${words}.`)),
@@ -72,6 +82,9 @@ function heading(page: Page): string {
   return hasCavities(page) ? "Objects and cavities" : "Objects";
 }
 
+/** Pictures above the chart. */
+const FIRST = 5;
+
 /** What the order of the cards means. */
 function explanation(page: Page): string {
   if (page.polarity === "both")
@@ -92,7 +105,9 @@ function start(page: Page, main: HTMLElement): void {
   const open = (i: number): void => detail.open(i);
   const items = page.entries.map((_, i) => card(page, i, open));
   const all = page.entries.filter(hasCard).length;
-  const cards = html("ol", { class: "cards" });
+  const first = html("ol", { class: "cards" });
+  const cards = html("ol", { class: "cards", start: FIRST + 1 });
+  const more = html("section", { class: "more" }, html("h2", {}, "More pictures"), cards);
   const field = scannedField();
   const status = html("p", { class: "message", role: "status" });
   const lanes = html("div", {});
@@ -102,7 +117,10 @@ function start(page: Page, main: HTMLElement): void {
     const kept = chosenBranches(page, choice);
     const entries = chosenEntries(page, choice);
     const shown = cardsOf(page, entries);
-    cards.replaceChildren(...shown.cards.map((i) => items[i] as HTMLElement));
+    const shownItems = shown.cards.map((i) => items[i] as HTMLElement);
+    first.replaceChildren(...shownItems.slice(0, FIRST));
+    cards.replaceChildren(...shownItems.slice(FIRST));
+    more.hidden = shownItems.length <= FIRST;
     field.show(shown.background.map((i) => items[i] as HTMLElement), shown.cards.length === 0);
     const hidden = all - shown.cards.length - shown.background.length;
     status.textContent = hidden > 0 ? `${count(all - hidden)} of ${count(all)} pictures shown` : "";
@@ -112,18 +130,21 @@ function start(page: Page, main: HTMLElement): void {
     for (const { polarity, mark } of counts)
       mark([...kept].filter((b) => page.branches[b]?.side === "object" && page.branches[b].polarity === polarity).length);
   };
-  main.append(about(page), ...smoothing(page));
+  main.append(head(page));
   const constant = page.volume.low === page.volume.high;
   if (items.length > 0 && !constant) {
     show(firstChoice(page));
     const { keep, filter } = controls(page, show);
     main.append(
-      html("section", { class: "panel" }, html("h2", {}, "Objects over the isovalue"), keep, lanes),
-      html("section", {}, html("h2", {}, heading(page)), html("p", { class: "note" }, explanation(page)), filter, status, cards),
+      html("section", {}, html("h2", {}, heading(page)), first),
+      html("section", { class: "panel" }, html("h2", {}, "Objects over the isovalue"), keep, filter, status, lanes),
+      more,
+      html("p", { class: "note" }, explanation(page)),
       rest,
       field.element,
     );
   }
+  main.append(about(page), ...smoothing(page));
   const last = html("footer", {}, `isoatlas ${page.version}, interpolant ${page.interpolant}. This page loads nothing from elsewhere.`);
   main.append(spectrum(page) ?? "", ...(constant ? [] : counts.map(({ panel }) => panel)), glossary(page), last, detail.dialog);
   detail.openAt(location.hash);

@@ -11,9 +11,8 @@ export function hiddenSentences(page: Page): string[] {
     const shown = new Set(page.entries.filter((e) => page.branches[e.branch]?.side === side).map((e) => e.branch)).size;
     const name = side === "object" ? plural(all, "object") : plural(all, "cavity", "cavities");
     if (all === 0) continue;
-    const how = side === "object" ? ` (shown with --top ${significant + 4})` : "";
     const more = significant - shown;
-    const later = more > 0 ? ` ${count(more)} more ${more === 1 ? "is" : "are"} significant${how}.` : "";
+    const later = more > 0 ? ` ${count(more)} more ${more === 1 ? "is" : "are"} significant.` : "";
     const rest = all - Math.max(significant, shown);
     const hidden = rest > 0 ? ` ${count(rest)} not shown: below noise level or very small.` : "";
     sentences.push(`${name} in all, ${count(shown)} shown.${later}${hidden}`);

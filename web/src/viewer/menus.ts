@@ -62,7 +62,8 @@ function buttonOf(action: Action, done: () => void): HTMLElement {
 
 export function help(actions: Actions): HTMLDialogElement {
   const lists = html("div", { class: "groups" });
-  const dialog = html("dialog", { class: "help", "aria-label": "keys" }, html("h2", {}, "Keyboard shortcuts"), lists);
+  const title = html("h2", { tabindex: -1, autofocus: true }, "Keyboard shortcuts");
+  const dialog = html("dialog", { class: "help", "aria-label": "keys" }, title, lists);
   dialog.append(html("button", { type: "button", click: () => dialog.close() }, "Close"));
   const show = (): void => {
     const keyed = (group: Group): [string, string][] =>
@@ -73,6 +74,7 @@ export function help(actions: Actions): HTMLDialogElement {
     ];
     lists.replaceChildren(...groups.filter(([, keys]) => keys.length > 0).map(([title, keys]) => keyList(title, keys)));
     dialog.showModal();
+    dialog.scrollTop = 0; // the button that takes the focus is at its end
   };
   actions.add({ group: "Help", name: "Keyboard shortcuts", keys: ["?"], run: show });
   return dialog;

@@ -35,6 +35,13 @@ export class Actions {
       action.run();
       event.preventDefault();
     });
+    // A menu takes letters to search in it; who chose with a pointer has done that, and means the keys of the viewer.
+    let byPointer = false;
+    target.addEventListener("pointerdown", () => (byPointer = true), true);
+    target.addEventListener("keydown", () => (byPointer = false), true);
+    target.addEventListener("change", (event) => {
+      if (byPointer && event.target instanceof HTMLSelectElement) event.target.blur();
+    });
   }
 }
 
@@ -44,9 +51,12 @@ export function keyOf(event: { key: string; ctrlKey: boolean; metaKey: boolean; 
   return `Ctrl+${event.shiftKey ? "Shift+" : ""}${event.key.toLowerCase()}`;
 }
 
-/** Sliders handle arrow keys, text fields handle all keys, checkboxes handle only space. */
+/** Text fields and menus take all keys, sliders those that move them, checkboxes and radio buttons the space bar. */
 function isTyping(event: KeyboardEvent): boolean {
   const { target } = event;
-  if (target instanceof HTMLInputElement) return target.type !== "checkbox" || event.key === " ";
+  if (target instanceof HTMLInputElement) {
+    if (target.type === "range") return /^(Arrow|Page|Home$|End$)/.test(event.key);
+    return !["checkbox", "radio", "button", "color"].includes(target.type) || event.key === " ";
+  }
   return target instanceof HTMLSelectElement || target instanceof HTMLTextAreaElement;
 }

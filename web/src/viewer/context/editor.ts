@@ -3,6 +3,7 @@ import type { Page } from "../../shared/page";
 import type { History } from "../state/history";
 import { bestOf, branchOfShown, within } from "../api/entries";
 import { GHOSTS } from "../state/ghosts";
+import { closedAgain, seenThrough } from "../state/see_through";
 import { add, change, changeAll, isolate, remove, select, type Shown, type State } from "../state/state";
 
 export class Editor {
@@ -27,7 +28,7 @@ export class Editor {
   }
 
   add(entry: number, tau = bestOf(this.page, entry)): void {
-    this.history.go(add(this.now, entry, tau));
+    this.history.go(seenThrough(this.page, add(this.now, entry, tau), entry));
   }
 
   toggle(entry: number): void {
@@ -37,7 +38,8 @@ export class Editor {
   }
 
   remove(at = this.now.selected): void {
-    if (this.now.shown[at]) this.history.go(remove(this.now, at));
+    const shown = this.now.shown[at];
+    if (shown) this.history.go(closedAgain(this.page, remove(this.now, at), shown.entry));
   }
 
   select(at: number): void {

@@ -1,0 +1,33 @@
+# `make package`: isoatlas (the command line) and libisoatlas-dev (all libraries with headers), as Debian packages and as tarballs that
+# unpack anywhere. What the program links is found by dpkg-shlibdeps; who installs it needs no compiler and no npm.
+set(CPACK_GENERATOR DEB TGZ)
+set(CPACK_PACKAGE_NAME isoatlas)
+set(CPACK_PACKAGE_VERSION ${PROJECT_VERSION})
+set(CPACK_PACKAGE_DIRECTORY ${CMAKE_BINARY_DIR}/packages)
+set(CPACK_PACKAGE_CONTACT "The isoatlas developers <developers@isoatlas.invalid>")
+set(CPACK_RESOURCE_FILE_LICENSE ${PROJECT_SOURCE_DIR}/LICENSE)
+set(CPACK_STRIP_FILES ON)
+set(CPACK_VERBATIM_VARIABLES ON)
+set(CPACK_DEB_COMPONENT_INSTALL ON)
+set(CPACK_ARCHIVE_COMPONENT_INSTALL ON)
+set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
+set(CPACK_DEBIAN_RUNTIME_PACKAGE_NAME isoatlas)
+set(CPACK_DEBIAN_RUNTIME_PACKAGE_SECTION science)
+set(CPACK_DEBIAN_RUNTIME_PACKAGE_SHLIBDEPS ON)
+set(CPACK_DEBIAN_RUNTIME_PACKAGE_SUGGESTS "ffmpeg, xdg-utils")
+set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME libisoatlas-dev)
+set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
+set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS "libtbb-dev, zlib1g-dev, libtiff-dev, libpugixml-dev, libhdf5-dev, libdeflate-dev, \
+libqhull-dev, libembree-dev, libwebp-dev, libmeshoptimizer-dev, libzstd-dev")
+set(CPACK_ARCHIVE_RUNTIME_FILE_NAME isoatlas-${PROJECT_VERSION}-${CMAKE_SYSTEM_PROCESSOR})
+set(CPACK_ARCHIVE_DEVELOPMENT_FILE_NAME libisoatlas-dev-${PROJECT_VERSION}-${CMAKE_SYSTEM_PROCESSOR})
+include(CPack)
+cpack_add_component_group(runtime DESCRIPTION "Which objects are in a scalar volume, and at which isovalues?\n\
+Lists the topologically distinct objects of CT, MRI, microscopy and simulation volumes with the isovalues that show them, writes a page of \
+pictures, watertight surfaces, label volumes and measures, and serves a viewer in the browser.")
+cpack_add_component_group(development DESCRIPTION "C++20 libraries of isoatlas\nMerge trees, contour trees, surfaces, stores, pictures and \
+the viewer's server as static libraries, with headers and a CMake package: find_package(isoatlas).")
+cpack_add_component(cli GROUP runtime)
+foreach(component IN ITEMS ${ISOATLAS_ALL_LIBRARIES} all package)
+  cpack_add_component(${component} GROUP development)
+endforeach()
