@@ -38,6 +38,7 @@ test|assimp-utils|independent reader of the surfaces we write
 test|python3-vtk9|independent reader of the surfaces and trees we write
 test|python3-numpy|arrays of python3-vtk9
 test|python3-nibabel|independent reader of the NIfTI files we write
+test|python3-tifffile|independent reader of the TIFF files we write
 test|chromium|opens the page
 test|python3-pil|independent reader of the pictures we write
 test|python3-h5py|independent reader of stores

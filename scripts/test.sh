@@ -15,5 +15,6 @@ step "packages" scripts/bootstrap.sh test
 step "format" scripts/format.sh
 step "build" scripts/build.sh dev
 step "tests" ctest --preset dev
+python3 -B scripts/skipped_tests.py build/dev/Testing/Temporary/LastTest.log
 step "lint" scripts/lint.py build/dev
 echo "All checks passed in $SECONDS s."

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <ostream>
+#include <random>
 #include <string>
 #include <utility>
 #include <vector>
@@ -159,6 +160,25 @@ inline Grid rotated(const Grid& grid, const std::array<int, 3>& order, int mirro
         result.value.push_back(grid.value[grid.index(q[0], q[1], q[2])]);
     }
     return result;
+}
+
+/// Its images of the same size.
+inline std::vector<Grid> images(const Grid& grid) {
+    std::vector<Grid> all;
+    for (const auto& [order, mirror] : turns(grid.rank)) {
+        Grid image = rotated(grid, order, mirror);
+        if (image.size == grid.size) all.push_back(std::move(image));
+    }
+    return all;
+}
+
+/// Calls visit(grid) for one of all turned images of this grid, another one in each run, and not at all where the grid is not the first of
+/// them: of all grids, each kind is visited once. That turning changes nothing is a theorem of its own.
+template <class Visit>
+void for_one_image(const Grid& grid, std::mt19937_64& random, const Visit& visit) {
+    const std::vector<Grid> all = images(grid);
+    if (std::any_of(all.begin(), all.end(), [&](const Grid& image) { return image.value < grid.value; })) return;
+    visit(all[random() % all.size()]);
 }
 
 }  // namespace oracle

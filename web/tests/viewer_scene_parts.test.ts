@@ -5,7 +5,7 @@ import { deflateSync } from "node:zlib";
 import { describe, expect, it } from "vitest";
 import { animatedPng, chunksOf } from "../src/viewer/export/apng";
 import { allText, bytesText } from "../src/viewer/panels/surface_estimate";
-import type { Api } from "../src/viewer/api/api";
+import { ConnectionError, failureText, ServerError, type Api } from "../src/viewer/api/api";
 import { eventNear, eventsOf } from "../src/viewer/state/events";
 import { Latest } from "../src/viewer/api/latest";
 import { factsOf } from "../src/viewer/panels/object_measures";
@@ -139,7 +139,8 @@ describe("the state of a surface", () => {
     expect(noteOf(shown, there)).toBe("at 5, 1,234 triangles, coarse");
     expect(noteOf({ ...shown, tau: 6 }, there)).toBe("at 6, loading");
     expect(noteOf({ ...shown, visible: false }, there)).toBe("at 5, hidden");
-    expect(noteOf(shown, { ...there, triangles: 0, error: "no" })).toBe("at 5, does not exist");
+    expect(noteOf(shown, { ...there, triangles: 0, error: failureText(new ServerError(404, "no")) })).toBe("at 5, does not exist");
+    expect(noteOf(shown, { ...there, triangles: 0, error: failureText(new ConnectionError()) })).toBe("at 5, no connection");
     expect(noteOf({ ...shown, walls: "cavities" }, { ...there, key: "5 cavities", walls: 2, coarse: false })).toBe(
       "at 5, 2 cavities, 1,234 triangles",
     );

@@ -39,6 +39,15 @@ describe.skipIf(!canServe)("the viewer before its store is built", () => {
     served.end();
     await tab.getByText("isoatlas view has ended").waitFor();
     expect(await tab.locator(".objects li").count()).toBeGreaterThan(0);
+    await tab.getByRole("button", { name: /^Object 3/ }).first().click(); // not loaded
+    await tab.getByText("no connection").first().waitFor();
+    const box = tab.getByRole("textbox", { name: "isovalue" });
+    await box.fill("200");
+    await box.press("Enter");
+    const text = await tab.locator("body").innerText();
+    for (const wrong of ["Failed to fetch", "does not exist"]) expect(text).not.toContain(wrong);
+    expect(text.match(/isoatlas view has ended/g)).toHaveLength(1);
+    await tab.locator("summary", { hasText: "Tools" }).click({ timeout: 10_000 }); // the message covers no menu
     await served.close();
   });
 });

@@ -3,6 +3,7 @@
 #include <rapidcheck/gtest.h>
 
 #include <cerrno>
+#include <map>
 #include <memory>
 #include <numeric>
 #include <random>
@@ -70,15 +71,22 @@ private:
     Disk& disk_;
 };
 
-RC_GTEST_PROP(ExpectedReads, AreThoseThatCome, ()) {
-    test::MemoryFiles memory;
-    const ReplacedFileSystem in_use(memory);
-    const char* const phantom = *rc::gen::element("noise", "nested-shells");  // without and with bricks of one value
-    const Volume volume = make_phantom(phantom, {.size = 120, .quantise = 256});
-    Contents contents;
-    contents.volume = volume.info;
-    pack_store(kPath, contents, brick_arrays(volume, {}));
+/// The store of a phantom at kPath, made once.
+test::MemoryFiles& store_of(const std::string& phantom) {
+    static std::map<std::string, test::MemoryFiles> made;
+    const auto [at, is_new] = made.try_emplace(phantom);
+    if (is_new) {
+        const ReplacedFileSystem in_use(at->second);
+        const Volume volume = make_phantom(phantom, {.size = 120, .quantise = 256});
+        Contents contents;
+        contents.volume = volume.info;
+        pack_store(kPath, contents, brick_arrays(volume, {}));
+    }
+    return at->second;
+}
 
+RC_GTEST_PROP(ExpectedReads, AreThoseThatCome, ()) {
+    test::MemoryFiles& memory = store_of(*rc::gen::element<std::string>("noise", "nested-shells"));  // without and with bricks of one value
     Disk disk;
     SlowFiles slow(memory, disk);
     const ReplacedFileSystem is_slow(slow);

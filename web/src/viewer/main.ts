@@ -4,7 +4,7 @@ import { referenceOf } from "../shared/names";
 import type { Page } from "../shared/page";
 import { Actions } from "./context/actions";
 import { fromHash, toHash } from "./state/address";
-import { Api, isSuperseded } from "./api/api";
+import { Api, ConnectionError, isSuperseded } from "./api/api";
 import { IsovaluePanel } from "./panels/isovalue_panel";
 import { addSelectionBrackets } from "./tools/selection_brackets";
 import { Catalogue, MAX_LISTED, needsAll, numbersOf } from "./api/catalogue";
@@ -108,7 +108,7 @@ class Viewer implements ViewerContext {
   }
 
   reportError(error: unknown): void {
-    if (!isSuperseded(error)) this.notify(error instanceof Error ? error.message : String(error));
+    if (!isSuperseded(error) && !(error instanceof ConnectionError)) this.notify(error instanceof Error ? error.message : String(error));
   }
 
   private listenToClicks(): void {

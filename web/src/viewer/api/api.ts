@@ -71,6 +71,19 @@ export class ServerError extends Error {
   }
 }
 
+/** There is no connection to the server, which the page says once (waiting.ts). */
+export class ConnectionError extends Error {
+  constructor() {
+    super("no connection");
+  }
+}
+
+/** Why a request about an object failed, beside its title. */
+export function failureText(error: unknown): string {
+  if (error instanceof ServerError && error.status === 404) return "does not exist";
+  return error instanceof Error ? error.message : String(error);
+}
+
 export class Api {
   private readonly client = crypto.randomUUID();
   private surfaces = 0;
@@ -188,7 +201,9 @@ export class Api {
     this.channels.set(channel, controller);
     const headers = { Authorization: `Bearer ${this.token}`, "X-Client": `${this.client}/${channel}` };
     const priority = channel === PREVIEW_CHANNEL ? "high" : "auto"; // browsers limit the number of parallel requests to a server
-    const response = await fetch(this.base + path, { method, headers, signal: controller.signal, priority });
+    const response = await fetch(this.base + path, { method, headers, signal: controller.signal, priority }).catch((error: unknown) => {
+      throw error instanceof TypeError ? new ConnectionError() : error; // a TypeError: the network
+    });
     if (!response.ok) throw new ServerError(response.status, await messageOf(response));
     return response;
   }

@@ -1,5 +1,5 @@
 // Loads surfaces of objects, one channel an object: coarse ones during a drag, full ones when it ends.
-import { isSuperseded, type Api, type SurfaceTarget } from "./api";
+import { failureText, isSuperseded, type Api, type SurfaceTarget } from "./api";
 import { countComponents } from "./count_components";
 import type { ShellFilter } from "../state/state";
 import type { Mesh } from "./wire";
@@ -120,7 +120,7 @@ export class Surfaces {
       }
     } catch (error) {
       if (isStale() || isSuperseded(error)) return;
-      channel.loadState = { ...NONE, key, error: error instanceof Error ? error.message : String(error) };
+      channel.loadState = { ...NONE, key, error: failureText(error) };
       this.onMesh(entry, null, request.tau);
     }
     channel.requested = 0;

@@ -2,7 +2,7 @@
 import { area, count, length, plural, value, volume } from "../../shared/format";
 import { countsVoxels } from "../../shared/units";
 import { entryOf, type Page } from "../../shared/page";
-import { isSuperseded, type Measures } from "../api/api";
+import { ConnectionError, failureText, isSuperseded, type Measures } from "../api/api";
 import type { ViewerContext } from "../context/viewer_context";
 import { branchOfShown, polarityOfEntry } from "../api/entries";
 import type { Shown } from "../state/state";
@@ -22,7 +22,8 @@ export async function measuredFacts({ api, page }: ViewerContext, shown: Shown):
     const known = isMeasuredAtEntry(page, shown) ? { ...there, voxels: [voxels, voxels] as [number, number] } : there;
     return factsOf(known, id, shown.tau, page.volume.unit, voxels > 0 ? measure / voxels : 1);
   } catch (error) {
-    return isSuperseded(error) ? [] : [[`at ${value(shown.tau)}`, "it does not exist"]];
+    if (isSuperseded(error) || error instanceof ConnectionError) return [];
+    return [[`at ${value(shown.tau)}`, failureText(error)]];
   }
 }
 

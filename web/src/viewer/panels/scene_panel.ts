@@ -198,7 +198,7 @@ export function noteOf(shown: Shown, loadState: LoadState): string {
   const parts = [`at ${value(shown.tau)}`];
   if (!shown.visible) parts.push("hidden");
   else if (loadState.key !== keyOf(shown)) parts.push("loading");
-  else if (loadState.error) parts.push("does not exist");
+  else if (loadState.error) parts.push(loadState.error);
   else if (shown.walls === "cavities" && loadState.triangles === 0) parts.push("no cavities");
   else if (loadState.walls) parts.push(`${plural(loadState.walls, "cavity", "cavities")}, ${count(loadState.triangles)} triangles`);
   else if (loadState.triangles > 0) parts.push(`${count(loadState.triangles)} triangles${loadState.coarse ? ", coarse" : ""}`);
