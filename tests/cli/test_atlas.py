@@ -242,7 +242,7 @@ class Atlas(harness.CliTest):
         for name in ("empty", "nan"):
             self.assertEqual([file.name for file in self.folder.glob(name + ".*") if file.suffix != ".nrrd"], [])
         self.run_error(2, "demo.nrrd", "-o", "page.txt", says=".txt")
-        self.run_error(2, "no such file.nrrd", says="no verb")
+        self.run_error(3, "no such file.nrrd", says="there is no such file")
 
     def write_nrrd(self, name, sizes, samples, kind="uint8"):
         head = f"NRRD0004\ntype: {kind}\ndimension: {len(sizes)}\nsizes: {' '.join(map(str, sizes))}\nencoding: raw\nendian: little\n\n"
