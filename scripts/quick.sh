@@ -13,7 +13,7 @@ program_of() {
         codec | store | bricks | census | atlas) echo unit_store ;;
         measures) echo unit_measures ;;
         image | render) echo unit_render ;;
-        catalogue | page | server) echo unit_server ;;
+        preview | catalogue | page | server) echo unit_server ;;
         phantom | verify) echo unit_checks ;;
         *) echo "quick: no room is called $1; rooms are the folders of src" >&2 && return 1 ;;
     esac

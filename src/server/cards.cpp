@@ -1,6 +1,6 @@
 #include "server/cards.h"
 
-#include "server/coarse_surface.h"
+#include "preview/coarse_surface.h"
 #include "server/document.h"
 
 namespace isoatlas {

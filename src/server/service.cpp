@@ -11,6 +11,7 @@
 #include "isoatlas/isovalue.h"
 #include "isoatlas/output.h"
 #include "page/template.h"
+#include "preview/wire_mesh.h"
 #include "server/answers.h"
 #include "server/branch_answers.h"
 #include "server/download.h"
@@ -18,7 +19,6 @@
 #include "server/secret.h"
 #include "server/several_objects.h"
 #include "server/unit_word.h"
-#include "server/wire_mesh.h"
 
 namespace isoatlas {
 namespace {

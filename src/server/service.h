@@ -8,7 +8,7 @@
 //   /api/measures?tau=T&object=ID,...       sizes of these objects, in physical units
 //   /api/branches?top=N[&persistence=H...]  all objects by rank, or those of a selection (server/branch_answers.h)
 //   /api/card?entry=I|branch=R[&frames=N]   a picture of one (server/cards.h)
-//   /api/surface?tau=T[&object=ID,...|&contour=ID,...][&max=N]    a mesh (server/wire_mesh.h)
+//   /api/surface?tau=T[&object=ID,...|&contour=ID,...][&max=N]    a mesh (preview/wire_mesh.h)
 //   /api/surface?tau=T[...]&format=stl                            the file that `isoatlas extract` writes
 //   /api/label?tau=T[&object=ID,...]&format=nrrd                  the file that `isoatlas label` writes
 //   /api/slice?axis=A&index=I[&max=N]       the samples of one slice (server/wire_samples.h)
@@ -31,6 +31,7 @@
 
 #include "isoatlas/atlas.h"
 #include "isoatlas/context.h"
+#include "preview/wire_mesh.h"
 #include "server/cards.h"
 #include "server/event_stream.h"
 #include "server/job_queues.h"
@@ -41,7 +42,6 @@
 #include "server/store_catalogue.h"
 #include "server/store_state.h"
 #include "server/version_counter.h"
-#include "server/wire_mesh.h"
 
 namespace isoatlas {
 

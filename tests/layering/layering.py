@@ -18,7 +18,7 @@ LIBRARIES = {
     "store": (["formats"], ["codec", "store", "bricks", "census", "atlas"]),
     "measures": (["store"], ["measures"]),
     "render": (["core"], ["image", "render"]),
-    "server": (["store", "measures", "render"], ["catalogue", "page", "server"]),
+    "server": (["store", "measures", "render"], ["preview", "catalogue", "page", "server"]),
     "phantom": (["core"], ["phantom"]),
     "verify": (["store"], ["verify"]),
 }
@@ -66,7 +66,7 @@ DOORS = {
     r"libdeflate\.h": r"src/codec/chunk_codec\.cpp|src/image/png\.cpp|src/server/coding\.cpp",
     r"zstd\.h": r"src/server/coding\.cpp",
     r"boost/(asio|beast)/.*": r"src/server/(network|request_head|response_reader)\.cpp|tests/.*",
-    r"meshoptimizer\.h": r"src/server/(wire_mesh|coarse_surface)\.cpp|tests/.*",
+    r"meshoptimizer\.h": r"src/preview/(wire_mesh|coarse_surface)\.cpp|tests/.*",
     r"webp/.*": r"src/image/webp\.cpp",
     r"embree3/.*": r"src/render/ray_surfaces\.cpp|src/measures/solid_rays\.cpp",
     r"fcntl\.h|sys/(stat|file)\.h|fstream": r"src/base/.*|(apps|tests|bench)/.*",

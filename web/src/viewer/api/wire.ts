@@ -1,4 +1,4 @@
-// Decodes meshes of the server: src/server/wire_mesh.h documents the format.
+// Decodes meshes of the server: src/preview/wire_mesh.h documents the format.
 import { MeshoptDecoder } from "meshoptimizer";
 
 export interface Mesh {

@@ -1,4 +1,4 @@
-#include "server/coarse_surface.h"
+#include "preview/coarse_surface.h"
 
 #include <meshoptimizer.h>
 

@@ -1,5 +1,5 @@
 // What the viewer decodes is the surface, up to half a step of a position and two degrees of a normal.
-#include "server/wire_mesh.h"
+#include "preview/wire_mesh.h"
 
 #include <gtest/gtest.h>
 #include <meshoptimizer.h>

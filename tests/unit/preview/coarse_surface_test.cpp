@@ -1,5 +1,5 @@
 // Fewer triangles where they are too many, and the same where they are not.
-#include "server/coarse_surface.h"
+#include "preview/coarse_surface.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "server/wire_mesh.h"
+#include "preview/wire_mesh.h"
 
 #include <meshoptimizer.h>
 
@@ -11,7 +11,7 @@
 #include "base/cancel.h"
 #include "base/parallel.h"
 #include "isoatlas/error.h"
-#include "server/coarse_surface.h"
+#include "preview/coarse_surface.h"
 
 namespace isoatlas {
 namespace {
