@@ -1,7 +1,9 @@
-// The page: one self-contained HTML file with a picture of every significant object. It opens from disk and loads nothing from elsewhere.
+// The page: one self-contained HTML file with a picture of every significant object, and a coarse surface
+// to turn it where at most 5 MB allow that. It opens from disk and loads nothing from elsewhere.
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -18,6 +20,14 @@ struct PageSmoothing {
     std::string command{};  ///< that makes the page
 };
 
+struct PageReport {
+    std::int64_t objects = 0;   ///< entries, with a picture each
+    std::int64_t cavities = 0;  ///< of these: cavities
+    std::int64_t low = 0;       ///< of these: objects of low values
+    std::int64_t hidden = 0;    ///< objects and cavities of the volume that have no picture
+    std::int64_t bytes = 0;     ///< of the page
+};
+
 struct PageOptions {
     std::int64_t top = 24;            ///< at most so many pictures of objects
     std::int64_t top_cavities = 12;   ///< and of cavities
@@ -30,14 +40,8 @@ struct PageOptions {
     std::string source{};                 ///< the file in commands on the page: the volume or the store; empty: the store
     std::vector<std::string> notes{};     ///< sentences about the volume: what was assumed about its samples
     std::optional<PageSmoothing> smoothing{};
-};
-
-struct PageReport {
-    std::int64_t objects = 0;   ///< entries, with a picture each
-    std::int64_t cavities = 0;  ///< of these: cavities
-    std::int64_t low = 0;       ///< of these: objects of low values
-    std::int64_t hidden = 0;    ///< objects and cavities of the volume that have no picture
-    std::int64_t bytes = 0;     ///< of the page
+    /// Set: the page is written with still pictures first, called for that file, then replaced by the complete one.
+    std::function<void(const PageReport&)> stills_written{};
 };
 
 /// Ranks the objects and cavities of a store, renders them and writes the page. Throws Error: usage (options), input (damaged store),

@@ -225,7 +225,11 @@ Surface surface_of(const Atlas& atlas, bool is_cavity, const PageEntry& entry, c
     return atlas.extract(entry.tau, chosen, context);
 }
 
-void draw_pictures(PageContents& contents, const StoreSides& sides, const PageOptions& options, const Context& context) {
+namespace {
+
+/// Calls use(entry, surface, silent context) with the surface of each entry of a 3D volume; of a 2D volume it draws the slice.
+template <class Use>
+void for_each_surface(PageContents& contents, const StoreSides& sides, const PageOptions& options, const Context& context, const Use& use) {
     Context silent = context;
     silent.progress = nullptr;
     std::vector<PageEntry>& entries = contents.entries;
@@ -241,8 +245,36 @@ void draw_pictures(PageContents& contents, const StoreSides& sides, const PageOp
             entry.picture = draw_still(*image, entry.tau, entry.colour, options, silent);
             continue;
         }
-        Surface surface = surface_of(atlas, branch.is_cavity, entry, silent);
+        use(entry, surface_of(atlas, branch.is_cavity, entry, silent), silent);
+    }
+}
+
+}  // namespace
+
+void draw_stills(PageContents& contents, const StoreSides& sides, const PageOptions& options, const Context& context) {
+    PageOptions still = options;
+    still.frames = 1;
+    for_each_surface(contents, sides, still, context, [&](PageEntry& entry, Surface surface, const Context& silent) {
+        entry.picture = draw_turntable(std::move(surface), entry.colour, still, silent);
+    });
+}
+
+std::vector<CoarseSurface> draw_pictures(PageContents& contents, const StoreSides& sides, const PageOptions& options,
+                                         const Context& context) {
+    std::vector<CoarseSurface> surfaces;
+    for_each_surface(contents, sides, options, context, [&](PageEntry& entry, Surface surface, const Context& silent) {
+        surfaces.push_back(coarse_for_page(surface, silent));
         entry.picture = draw_turntable(std::move(surface), entry.colour, options, silent);
+    });
+    return surfaces;
+}
+
+void add_meshes(PageContents& contents, const std::vector<CoarseSurface>& surfaces, std::int64_t max_bytes, const Context& context) {
+    for (std::size_t i = 0; i < surfaces.size(); ++i) {
+        stop_if_cancelled(context);
+        const std::int64_t share = max_bytes / (std::ssize(surfaces) - static_cast<std::int64_t>(i));
+        contents.entries[i].mesh = page_mesh(surfaces[i], share, context);
+        max_bytes -= std::ssize(contents.entries[i].mesh.data);
     }
 }
 

@@ -22,6 +22,7 @@ struct LabelCard {
     std::string name;
     Colour colour;
     Turntable picture{};
+    PageMesh mesh{};
 };
 
 /// 1 where a sample of a 2D volume has the label.
@@ -35,12 +36,18 @@ Volume mask_of(const Volume& volume, std::int64_t label) {
     return mask;
 }
 
-Turntable picture_of(const Volume& volume, Interpolant interpolant, const LabelCard& card, const PageOptions& options,
-                     const Context& context) {
-    if (volume.info.extent.rank == 2) return draw_still(mask_of(volume, card.region.label), 0.5, card.colour, options, context);
+/// Draws its picture. Returns its surface with few triangles; empty of a 2D volume.
+CoarseSurface draw(const Volume& volume, Interpolant interpolant, LabelCard& card, const PageOptions& options, const Context& context) {
+    if (volume.info.extent.rank == 2) {
+        card.picture = draw_still(mask_of(volume, card.region.label), 0.5, card.colour, options, context);
+        return {};
+    }
     ExtractOptions extracted{.interpolant = interpolant};
     extracted.surface.ids = false;
-    return draw_turntable(extract_label(volume, card.region.label, extracted, context), card.colour, options, context);
+    Surface surface = extract_label(volume, card.region.label, extracted, context);
+    CoarseSurface coarse = coarse_for_page(surface, context);
+    card.picture = draw_turntable(std::move(surface), card.colour, options, context);
+    return coarse;
 }
 
 /// Largest first.
@@ -91,6 +98,7 @@ void write_card(JsonStream& json, const LabelCard& card, const std::string& sour
     json.key("tunnels").value(region.tunnels).key("cavities").value(region.cavities);
     json.key("colour").value(web_colour(card.colour)).key("picture");
     write_picture(json, card.picture);
+    write_mesh(json, card.mesh);
     json.key("commands").begin_array();
     const std::string number = std::to_string(region.label);
     for (const auto& [name, verb, suffix] : {std::array<const char*, 3>{"surface", "extract", ".ply"},
@@ -129,11 +137,18 @@ PageReport write_label_page(const std::string& path, const Volume& volume, Inter
     Context silent = context;
     silent.progress = nullptr;
     const std::int64_t shown = std::min<std::int64_t>(options.top, std::ssize(cards));
+    std::vector<CoarseSurface> surfaces;
     for (std::int64_t i = 0; i < shown; ++i) {
         report(context, only_phase("draw"), static_cast<double>(i) / static_cast<double>(shown));
         stop_if_cancelled(context);
         LabelCard& card = cards[static_cast<std::size_t>(i)];
-        card.picture = picture_of(volume, interpolant, card, options, silent);
+        surfaces.push_back(draw(volume, interpolant, card, options, silent));
+    }
+    std::int64_t left = bytes_for_meshes(json_of(volume, interpolant, cards, table.background, options), shown);
+    for (std::int64_t i = 0; i < shown; ++i) {
+        LabelCard& card = cards[static_cast<std::size_t>(i)];
+        card.mesh = page_mesh(surfaces[static_cast<std::size_t>(i)], left / (shown - i), silent);
+        left -= std::ssize(card.mesh.data);
     }
     const std::int64_t bytes = write_page_file(path, json_of(volume, interpolant, cards, table.background, options));
     return {.objects = shown, .hidden = std::ssize(cards) - shown, .bytes = bytes};

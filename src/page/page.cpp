@@ -40,15 +40,27 @@ PageReport write_page(const std::string& path, const Atlas& atlas, const PageOpt
                                 : page_contents(atlas, overview_of(atlas, context), options, context);
     add_tunnels(contents, atlas, context);
     if (sides.has_both()) add_tunnels(contents, *sides.low, context);
-    draw_pictures(contents, sides, options, context);
     contents.notes = options.notes;
     contents.smoothing = options.smoothing;
-    if (contents.smoothing) contents.comparison = compare_smoothing(atlas, contents.smoothing->sigma, options, context);
-    std::string json;
-    JsonStream stream([&json](std::string_view text) { json += text; });
-    write_page_json(stream, sides, contents, options.source.empty() ? atlas.info().path : options.source);
+    const std::string source = options.source.empty() ? atlas.info().path : options.source;
+    const auto text_of = [&] {
+        std::string json;
+        JsonStream stream([&json](std::string_view text) { json += text; });
+        write_page_json(stream, sides, contents, source);
+        return json;
+    };
     PageReport report = report_of(contents);
-    report.bytes = write_page_file(path, json);
+    if (options.stills_written) {
+        draw_stills(contents, sides, options, context);
+        contents.is_complete = false;
+        report.bytes = write_page_file(path, text_of());
+        contents.is_complete = true;
+        options.stills_written(report);
+    }
+    const std::vector<CoarseSurface> surfaces = draw_pictures(contents, sides, options, context);
+    if (contents.smoothing) contents.comparison = compare_smoothing(atlas, contents.smoothing->sigma, options, context);
+    add_meshes(contents, surfaces, bytes_for_meshes(text_of(), std::ssize(surfaces)), context);
+    report.bytes = write_page_file(path, text_of());
     return report;
 }
 

@@ -1,6 +1,7 @@
 #include "page/page_file.h"
 
 #include "base/atomic_file.h"
+#include "catalogue/page_mesh.h"
 #include "isoatlas/error.h"
 #include "page/template.h"
 
@@ -30,6 +31,11 @@ void check_has_pages() {
     throw Error(ErrorKind::unsupported, {.what = "this isoatlas was built without pages",
                                          .next = "install npm and build it again with its pages",
                                          .reason = Reason::built_without_web});
+}
+
+std::int64_t bytes_for_meshes(const std::string& json, std::int64_t meshes) {
+    constexpr std::int64_t kWords = 100;  // members of a mesh beside its data
+    return kMaxPageBytes - std::ssize(page_template()) - std::ssize(json) - kWords * meshes;
 }
 
 std::int64_t write_page_file(const std::string& path, const std::string& json) {

@@ -49,6 +49,7 @@ public:
         json_.begin_object().key("schema").value("isoatlas/page/3").key("version").value(ISOATLAS_VERSION).line();
         write_volume();
         write_notes();
+        json_.key("complete").value(contents_.is_complete);
         json_.key("interpolant").value(name_of(atlas_.interpolant()));
         json_.key("polarity").value(sides_.has_both() ? name_of(PolarityChoice::both) : name_of(polarity_of(atlas_.info())));
         write_counts();
@@ -306,6 +307,7 @@ private:
         }
         json_.key("colour").value(web_colour(entry.colour)).line().key("picture");
         write_picture(json_, entry.picture);
+        write_mesh(json_, entry.mesh);
         json_.line().key("commands").begin_array();
         write_commands(i);
         json_.end_array().end_object();
@@ -364,6 +366,16 @@ void write_picture(JsonStream& json, const Turntable& picture) {
         json.begin_object().key("image").value(picture.image).key("frames").value(picture.frames);
         json.key("side").value(picture.side).end_object();
     }
+}
+
+void write_mesh(JsonStream& json, const PageMesh& mesh) {
+    json.line().key("mesh");
+    if (mesh.data.empty()) {
+        json.null();
+        return;
+    }
+    json.begin_object().key("data").value(mesh.data).key("triangles").value(mesh.triangles).key("of").value(mesh.of);
+    json.key("keepsTopology").value(mesh.keeps_topology).end_object();
 }
 
 void write_page_json(JsonStream& json, const StoreSides& sides, const PageContents& contents, const std::string& source) {

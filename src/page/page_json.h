@@ -12,6 +12,8 @@ namespace isoatlas {
 [[nodiscard]] std::string command_source(const Atlas& atlas, const std::string& source);
 
 /// null: nothing was drawn.
+/// The member "mesh".
+void write_mesh(JsonStream& json, const PageMesh& mesh);
 void write_picture(JsonStream& json, const Turntable& picture);
 
 /// source: file named in commands.

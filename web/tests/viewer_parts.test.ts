@@ -4,7 +4,7 @@ import { History } from "../src/viewer/state/history";
 import { flag, number } from "../src/viewer/state/part";
 import { add, change, changeAll, isolate, nextEvent, NOTHING, remove, shownAt, type State } from "../src/viewer/state/state";
 import { roundLength } from "../src/viewer/scene/scale_bar";
-import { decodeOctahedral } from "../src/viewer/api/wire";
+import { decodeOctahedral } from "../src/shared/wire";
 
 const two: State = add(isolate(NOTHING, 3, 10), 1, 20.5);
 

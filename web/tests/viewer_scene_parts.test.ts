@@ -19,7 +19,7 @@ import { closedAgain, liesInside, SEE_THROUGH, seenThrough } from "../src/viewer
 import { add, change, isolate, NOTHING, remove, shownAt, type State } from "../src/viewer/state/state";
 import { Surfaces } from "../src/viewer/api/surfaces";
 import { cell, tableCsv } from "../src/viewer/export/table_csv";
-import type { Mesh } from "../src/viewer/api/wire";
+import type { Mesh } from "../src/shared/wire";
 import { branch, entry, page as samplePage, scene as page } from "./sample";
 
 const schemaFile = join(process.env.ISOATLAS_SCHEMAS ?? "nowhere", "scene.schema.json");

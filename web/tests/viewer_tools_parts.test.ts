@@ -16,7 +16,7 @@ import { EVERYTHING } from "../src/viewer/api/entries";
 import { Ruler } from "../src/viewer/state/ruler";
 import { NOTHING } from "../src/viewer/state/state";
 import { linearOf, meanBetween, PLACES, transferTable, type OpacityTent } from "../src/viewer/api/transfer_function";
-import type { Mesh } from "../src/viewer/api/wire";
+import type { Mesh } from "../src/shared/wire";
 import { decodeSlice, decodeVolume, greyOf, valueAt } from "../src/viewer/api/wire_samples";
 import { scene } from "./sample";
 

@@ -69,7 +69,11 @@ int run_atlas(const Arguments& arguments, Terminal& terminal) {
                                   .low_names = low ? names(Polarity::low) : std::vector<ObjectName>{},
                                   .source = store,
                                   .notes = notes_of(arguments, atlas),
-                                  .smoothing = smoothing_of(arguments, atlas.info(), page)};
+                                  .smoothing = smoothing_of(arguments, atlas.info(), page),
+                                  .stills_written = [&](const PageReport& first) {
+                                      terminal.say("note: " + page + " has its " + counted(first.objects, "picture") +
+                                                   "; they turn when the page is complete");
+                                  }};
         report = write_page(page, atlas, options, session.context());
     }
     if (arguments.json) {

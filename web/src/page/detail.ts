@@ -24,23 +24,26 @@ import { rangeBar } from "../shared/overview";
 import { branchOf, entryOf, isOfLowValues, type Advice, type Page } from "../shared/page";
 import { legend } from "./spectrum";
 import { thumbnail, turntable } from "../shared/turntable";
+import { turnable, type Turnable } from "./turnable";
 
 const maxMerges = 12;
 
 export class Detail {
   readonly dialog = html("dialog", { class: "detail", "aria-labelledby": "detail-title" });
   private shown = 0;
+  private solid: Turnable | null = null;
 
   constructor(private readonly page: Page) {
     this.dialog.addEventListener("click", (event) => {
       if (event.target === this.dialog) this.dialog.close();
     });
     this.dialog.addEventListener("keydown", (event) => {
-      const onPicture = event.target instanceof Element && event.target.classList.contains("turntable");
+      const onPicture = event.target instanceof Element && (event.target.closest(".turntable") ?? event.target.closest(".solid")) !== null;
       if (onPicture) return;
       if (event.key === "ArrowRight") this.open(this.shown + 1);
       if (event.key === "ArrowLeft") this.open(this.shown - 1);
     });
+    this.dialog.addEventListener("close", () => this.solid?.dispose());
     this.dialog.addEventListener("close", () => history.replaceState(null, "", location.pathname + location.search));
   }
 
@@ -48,6 +51,7 @@ export class Detail {
     const n = this.page.entries.length;
     if (n === 0) return;
     this.shown = ((i % n) + n) % n;
+    this.solid?.dispose();
     this.dialog.replaceChildren(...this.content(this.shown));
     if (!this.dialog.open) this.dialog.showModal();
     this.dialog.scrollTop = 0;
@@ -82,7 +86,7 @@ export class Detail {
         step(1, "Next object"),
         close,
       ),
-      entry.picture ? turntable(entry.picture, `Picture of ${describe(page, i)}`) : html("p", {}, "no picture"),
+      this.picture(i),
       html("p", {}, this.sentence(i)),
       rangeBar(page, i),
       html("dl", { class: "facts" }, ...this.facts(i).flatMap(([name, what]) => [html("dt", {}, name), html("dd", {}, ...what)])),
@@ -92,6 +96,15 @@ export class Detail {
       html("h3", {}, "Commands"),
       commandList(entry.commands),
     ];
+  }
+
+  /** A surface that turns, else a picture. */
+  private picture(i: number): HTMLElement {
+    const { picture, mesh, colour } = entryOf(this.page, i);
+    const label = `Picture of ${describe(this.page, i)}`;
+    const still = picture ? turntable(picture, label) : html("p", {}, "no picture");
+    this.solid = mesh ? turnable(still, mesh, label, colour, `${this.page.volume.name}-${anchorOf(this.page, i)}`) : null;
+    return this.solid?.element ?? still;
   }
 
   private sentence(i: number): string {

@@ -2,8 +2,9 @@
 import { commandList } from "../shared/commands";
 import { html } from "../shared/dom";
 import { count, plural, value, volume } from "../shared/format";
-import type { Picture } from "../shared/page";
+import type { PageMesh, Picture } from "../shared/page";
 import { turntable } from "../shared/turntable";
+import { turnButton } from "./turnable";
 
 /** Data as `isoatlas` writes them: docs/schema/label-page.schema.json. Largest label first. */
 export interface LabelPage {
@@ -28,6 +29,7 @@ export interface Label {
   cavities: number;
   colour: string;
   picture: Picture | null;
+  mesh?: PageMesh | null;
   commands: { name: string; line: string }[];
 }
 
@@ -66,6 +68,7 @@ function card(page: LabelPage, label: Label): HTMLElement {
     "li",
     { class: "card", id: `label-${label.label}` },
     picture,
+    label.mesh ? turnButton(picture, label.mesh, titleOf(label), label.colour) : null,
     html("h3", {}, titleOf(label)),
     facts(page, label),
     html("details", { class: "commands" }, html("summary", {}, "Commands"), commandList(label.commands)),

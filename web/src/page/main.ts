@@ -30,7 +30,10 @@ function head(page: Page): HTMLElement {
   const notes = page.notes?.length ?? 0;
   const link = notes > 0 ? html("a", { href: "#about" }, "How it was read") : null;
   const size = `${volume.size.join(" × ")} samples${volume.valueUnit ? `, values in ${volume.valueUnit}` : ""}. `;
-  return html("header", {}, html("h1", {}, volume.name), html("p", {}, size, link));
+  const reload = html("button", { type: "button" }, "Reload");
+  reload.addEventListener("click", () => location.reload());
+  const unfinished = html("p", { class: "assumed" }, "Still pictures only: isoatlas was drawing the rest when this page was opened. ", reload);
+  return html("header", {}, html("h1", {}, volume.name), html("p", {}, size, link), page.complete === false ? unfinished : null);
 }
 
 /** Below them: what is known of the volume, and what was found in it. */

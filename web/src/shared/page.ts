@@ -9,6 +9,15 @@ export interface Picture {
   side: number;
 }
 
+/** A coarse surface inside the page: shared/wire.ts in base64. */
+export interface PageMesh {
+  data: string;
+  triangles: number;
+  /** triangles of the exact surface */
+  of: number;
+  keepsTopology: boolean;
+}
+
 export type Side = "object" | "cavity";
 
 /** A count over columns of isovalues: between min and max; without `min` it is `max` everywhere in the column. */
@@ -124,6 +133,8 @@ export interface Entry {
   why: string;
   colour: string;
   picture: Picture | null;
+  /** absent, null: of a 2D volume, or there was no room for it */
+  mesh?: PageMesh | null;
   commands: { name: string; line: string }[];
 }
 
@@ -202,6 +213,8 @@ export interface Page {
   curve: Curve;
   branches: Branch[];
   entries: Entry[];
+  /** false: with still pictures only, while isoatlas draws the others; absent: true */
+  complete?: boolean;
   /** entries that are not on the page, by number from entries.length on: viewer/api/catalogue.ts */
   further?: (i: number) => Entry | undefined;
 }

@@ -4,7 +4,7 @@ import { readPage, type Page, type Picture } from "../../shared/page";
 import type { BranchList } from "./catalogue";
 import { messages, type ServerState } from "./server_state";
 import type { ShellFilter } from "../state/state";
-import { decodeMesh, type Mesh } from "./wire";
+import { decodeMesh, type Mesh } from "../../shared/wire";
 
 /** Target of a surface: the object that contains a voxel, the wall of a cavity, or the whole isosurface. */
 export type SurfaceTarget = ({ object: number } | { contour: number }) & { polarity?: Polarity } | null;

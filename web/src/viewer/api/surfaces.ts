@@ -2,7 +2,7 @@
 import { failureText, isSuperseded, type Api, type SurfaceTarget } from "./api";
 import { countComponents } from "./count_components";
 import type { ShellFilter } from "../state/state";
-import type { Mesh } from "./wire";
+import type { Mesh } from "../../shared/wire";
 
 /** triangles */
 const FULL = 100_000_000;

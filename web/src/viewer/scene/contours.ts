@@ -2,7 +2,7 @@
 import { AXES, type AxisNumber, type Grid } from "../state/grid";
 import { SlicedMesh } from "./plane_cut";
 import type { Viewport } from "./viewport";
-import type { Mesh } from "../api/wire";
+import type { Mesh } from "../../shared/wire";
 
 export interface Contour {
   colour: string;

@@ -1,6 +1,6 @@
 // Contour of a surface on a slice: the plane intersected with the displayed triangles, so that both views agree.
 import { acrossAndDown, type Affine, type AxisNumber, type Grid } from "../state/grid";
-import type { Mesh } from "../api/wire";
+import type { Mesh } from "../../shared/wire";
 
 /** triangles per block; neighbours in the order of the mesh are close in space */
 const BLOCK = 256;

@@ -1,6 +1,6 @@
 // Intersection of a ray with a mesh, by testing all triangles: 10 ns per triangle.
 import type { Triple } from "../state/grid";
-import type { Mesh } from "../api/wire";
+import type { Mesh } from "../../shared/wire";
 
 /** A place is origin + t x direction, for t from begin to end. */
 export interface Ray {

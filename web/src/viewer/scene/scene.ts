@@ -5,7 +5,7 @@ import { colourOfShown, targetOf } from "../api/entries";
 import type { Appearance, Viewport } from "./viewport";
 import type { Shown, State } from "../state/state";
 import { keyOf, Surfaces, type LoadState } from "../api/surfaces";
-import type { Mesh } from "../api/wire";
+import type { Mesh } from "../../shared/wire";
 import type { History } from "../state/history";
 import type { Page } from "../../shared/page";
 

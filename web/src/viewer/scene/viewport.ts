@@ -3,7 +3,7 @@ import * as three from "three";
 import { cap, dispose } from "./clip";
 import { CameraRig } from "./camera_rig";
 import { clipped, firstHit, type Ray } from "./ray";
-import type { Mesh } from "../api/wire";
+import type { Mesh } from "../../shared/wire";
 
 type Body = three.Mesh<three.BufferGeometry, three.MeshStandardMaterial>;
 

@@ -2,7 +2,7 @@
 import * as three from "three";
 import type { ViewerContext } from "../context/viewer_context";
 import { isDarkPage, onTheme } from "../context/theme";
-import type { Mesh } from "../api/wire";
+import type { Mesh } from "../../shared/wire";
 
 /** length of an arm, as a fraction of the edge */
 const ARM = 0.16;

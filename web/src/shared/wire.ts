@@ -1,4 +1,4 @@
-// Decodes meshes of the server: src/preview/wire_mesh.h documents the format.
+// Decodes meshes of the server and of pages: src/preview/wire_mesh.h documents the format.
 import { MeshoptDecoder } from "meshoptimizer";
 
 export interface Mesh {
@@ -39,7 +39,7 @@ export async function decodeMesh(bytes: ArrayBuffer, coarse = false): Promise<Me
   await MeshoptDecoder.ready;
   const header = new DataView(bytes);
   if (bytes.byteLength < HEADER_BYTES || header.getUint32(0, false) !== 0x69616d31)
-    throw new Error("The response of the server is not a mesh. Reload the page.");
+    throw new Error("These are not the data of a mesh. Reload the page.");
   const [points, triangles, pointBytes, triangleBytes] = [4, 8, 12, 16].map((at) => header.getUint32(at, true)) as [
     number,
     number,
