@@ -16,7 +16,7 @@ inline constexpr std::size_t kMaxPageTriangles = 30'000;
 inline constexpr std::int64_t kMaxPageBytes = 5'000'000;
 
 struct PageMesh {
-    std::string data;             ///< preview/wire_mesh.h in base64; empty: there is none
+    std::string data;  ///< preview/wire_mesh.h in base64; empty: there is none
     std::int64_t triangles = 0;
     std::int64_t of = 0;          ///< triangles of the surface that it stands for
     bool keeps_topology = false;  ///< the same components and tunnels as that surface

@@ -11,7 +11,7 @@ globalThis.crypto ??= webcrypto as Crypto; // Debian's Node 18 keeps it to itsel
 
 const browserFile = ["/usr/bin/chromium", "/usr/bin/chromium-browser"].find((file) => existsSync(file));
 const cli = process.env.ISOATLAS_CLI ?? "";
-const SOFTWARE_DRAWING = ["--no-sandbox", "--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"];
+export const SOFTWARE_DRAWING = ["--no-sandbox", "--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"];
 
 export const canServe = browserFile !== undefined && existsSync(cli);
 
