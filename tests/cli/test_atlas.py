@@ -5,6 +5,7 @@ import os
 import re
 import shlex
 import struct
+import subprocess
 
 import harness
 
@@ -55,6 +56,22 @@ class Atlas(harness.CliTest):
         for size in page["volume"]["size"]:
             samples *= size
         self.assertEqual(sum(page["histogram"]["counts"]), samples)
+
+    def test_a_page_has_surfaces_and_is_written_with_still_pictures_first(self):
+        process = subprocess.Popen([harness.CLI, "demo.nrrd", "-o", "first.html"], cwd=self.folder, stdout=subprocess.PIPE,
+                                   stderr=subprocess.PIPE, text=True)
+        while "they turn when the page is complete" not in (line := process.stderr.readline()):
+            self.assertNotEqual(line, "", "it ended without still pictures")
+        _, early = self.page("first.html")
+        self.assertTrue(all(entry["picture"]["frames"] == 1 for entry in early["entries"]) or early["complete"])
+        process.communicate(timeout=600)
+        self.assertEqual(process.returncode, 0)
+        text, page = self.page("first.html")
+        self.assertTrue(page["complete"])
+        self.assertLessEqual(len(text), 5_000_000)
+        for entry in page["entries"]:
+            self.assertTrue(entry["mesh"]["keepsTopology"])
+            self.assertLessEqual(entry["mesh"]["triangles"], min(30_000, entry["mesh"]["of"]))
 
     def test_lines_that_look_the_same_share_a_card(self):
         table = self.run_json("objects", "shells.nrrd")["objects"]
