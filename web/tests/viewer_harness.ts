@@ -58,7 +58,7 @@ export class Served {
 
   private static async begin(folder: string, name: string, options: string[] = []): Promise<Served> {
     const token = crypto.randomUUID().replaceAll("-", "");
-    const env = { ...process.env, ISOATLAS_TOKEN: token, XDG_RUNTIME_DIR: folder };
+    const env = { ...process.env, ISOATLAS_TOKEN: token, XDG_RUNTIME_DIR: folder, XDG_STATE_HOME: folder };
     const server = spawn(cli, ["view", `${name}.nrrd`, "--no-browser", "--quiet", ...options], { cwd: folder, env });
     const address = await new Promise<string>((resolve) => server.stdout?.once("data", (bytes: Buffer) => resolve(String(bytes).trim())));
     const browser = await chromium.launch({ executablePath: browserFile, args: SOFTWARE_DRAWING });
