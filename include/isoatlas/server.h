@@ -11,11 +11,27 @@
 
 namespace isoatlas {
 
+/// What lets a link to a page of a store open again when another server of the store runs.
+struct ServerLink {
+    int port = 0;          ///< where ServerOptions::port is 0: listens on this one, or if it is taken on any that is free; 0: none
+    std::string token{};   ///< where ServerOptions::token is empty
+    std::string cookie{};  ///< of browsers, with the key; empty: new ones
+    std::string key{};     ///< of pages
+    bool is_kept = false;  ///< another server of the store will have the same: browsers keep the cookie for 30 days
+    std::string note{};    ///< a sentence, where earlier links do not open, or those of now will not; else empty
+};
+
+/// The port from 49152 on that follows from the path of the store, and secrets that are kept in a file of this user alone: link-HASH in
+/// $XDG_STATE_HOME/isoatlas, else ~/.local/state/isoatlas. The file is made where it is missing, or is malformed, a symbolic link, or open
+/// to other users. The store need not be there. is_new: the secrets are replaced, earlier links do not open any more.
+[[nodiscard]] ServerLink link_of_store(const std::string& store, bool is_new = false);
+
 struct ServerOptions {
-    int port = 0;               ///< 1 to 65535; 0: any that is free
+    int port = 0;               ///< 1 to 65535; 0: that of the link, or any that is free
     std::string token{};        ///< what requests of programs must carry, 16 to 256 letters and digits; empty: 128 random bits
     std::int64_t memory = 0;    ///< bytes for responses in progress at a time; 0: a quarter of the memory available
     bool is_read_only = false;  ///< names of objects cannot be changed
+    ServerLink link{};
 };
 
 /// Listens on 127.0.0.1 alone. Requests and responses: docs/server.md. Writes nothing to any disk but what keep_token() does, and names

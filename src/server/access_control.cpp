@@ -11,6 +11,7 @@ namespace isoatlas {
 namespace {
 
 constexpr std::string_view kHtml = "text/html; charset=utf-8", kOnce = "/open?once=", kEnter = "/enter", kChange = "/api/name?";
+constexpr const char* kThirtyDays = "; Max-Age=2592000";
 
 std::string_view bearer_of(const RequestHead& head) {
     constexpr std::string_view scheme = "Bearer ";
@@ -35,6 +36,13 @@ std::string refused_page() {
              "minutes, in one browser. Press Enter where it was started, and open the address that it prints.</p>"));
 }
 
+AccessControl::Secrets complete(AccessControl::Secrets secrets) {
+    for (std::string* secret : {&secrets.cookie, &secrets.key}) {
+        if (secret->empty()) *secret = random_secret();
+    }
+    return secrets;
+}
+
 ErrorKind kind_of(int status) { return status == 503 ? ErrorKind::resource : ErrorKind::usage; }
 
 ErrorText details_of(int status) {
@@ -57,8 +65,8 @@ ErrorText details_of(int status) {
 
 }  // namespace
 
-AccessControl::AccessControl(int port, std::string token, std::function<Clock::time_point()> now)
-    : port_(std::to_string(port)), token_(std::move(token)), key_(random_secret()), session_(random_secret()), now_(std::move(now)) {}
+AccessControl::AccessControl(int port, Secrets secrets, std::function<Clock::time_point()> now)
+    : port_(std::to_string(port)), secrets_(complete(std::move(secrets))), now_(std::move(now)) {}
 
 std::string AccessControl::address() const { return "http://127.0.0.1:" + port_; }
 
@@ -90,25 +98,26 @@ bool AccessControl::has_cookie(std::string_view cookies) const {
         std::string_view one = cookies.substr(0, cookies.find(';'));
         cookies.remove_prefix(std::min(one.size() + 1, cookies.size()));
         one.remove_prefix(std::min(one.find_first_not_of(' '), one.size()));
-        if (one.starts_with(name) && is_secret(one.substr(name.size()), session_)) return true;
+        if (one.starts_with(name) && is_secret(one.substr(name.size()), secrets_.cookie)) return true;
     }
     return false;
 }
 
 bool AccessControl::may_ask(const RequestHead& head, bool is_page) const {
     const std::string_view bearer = bearer_of(head);
-    if (is_secret(bearer, token_)) return true;
+    if (is_secret(bearer, secrets_.token)) return true;
     if (!has_cookie(head.cookie)) return false;
     if (is_page) return true;  // navigation sends the cookie only
     const bool from_ours = head.fetch_site.empty() || head.fetch_site == "same-origin" || head.fetch_site == "none";
-    return from_ours && is_secret(bearer, key_);
+    return from_ours && is_secret(bearer, secrets_.key);
 }
 
 std::string AccessControl::open(std::string_view code) {
     if (!use(code)) return refused_page();
-    const std::string cookie = "isoatlas-" + port_ + "=" + session_ + "; Path=/; HttpOnly; SameSite=Strict";
+    const std::string cookie =
+        "isoatlas-" + port_ + "=" + secrets_.cookie + "; Path=/; HttpOnly; SameSite=Strict" + (secrets_.is_kept ? kThirtyDays : "");
     return last_answer({.type = kHtml, .fields = {{"Set-Cookie", cookie}}},
-                       html_that_goes_on("localStorage.setItem(\"isoatlas\",\"" + key_ + "\");"));
+                       html_that_goes_on("localStorage.setItem(\"isoatlas\",\"" + secrets_.key + "\");"));
 }
 
 std::optional<std::string> AccessControl::answer(const RequestHead& head) {

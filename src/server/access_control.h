@@ -19,8 +19,13 @@ class AccessControl {
 public:
     using Clock = std::chrono::steady_clock;
 
-    /// token: sent by programs. now: the clock, for tests.
-    AccessControl(int port, std::string token, std::function<Clock::time_point()> now = Clock::now);
+    struct Secrets {
+        std::string token;            ///< sent by programs
+        std::string cookie{}, key{};  ///< of browsers; empty: random
+        bool is_kept = false;         ///< browsers keep the cookie when they end
+    };
+    /// now: the clock, for tests.
+    AccessControl(int port, Secrets secrets, std::function<Clock::time_point()> now = Clock::now);
 
     /// http://127.0.0.1:PORT, without anything secret.
     [[nodiscard]] std::string address() const;
@@ -47,8 +52,8 @@ private:
     [[nodiscard]] std::string open(std::string_view code);
     [[nodiscard]] bool use(std::string_view code);
 
-    const std::string port_, token_;
-    const std::string key_, session_;  ///< key of pages, and their cookie
+    const std::string port_;
+    const Secrets secrets_;
     const std::function<Clock::time_point()> now_;
     std::mutex mutex_;
     std::deque<Code> codes_;

@@ -56,13 +56,14 @@ struct Server::Data {
     AccessControl access;
 
     Data(const ServerOptions& options, const Context& context)
-        : token(checked_token(options.token)),
+        : token(checked_token(options.token.empty() ? options.link.token : options.token)),
           service(token, context, {.memory = options.memory, .is_read_only = options.is_read_only}),
           most_on_its_way(options.memory > 0 ? options.memory : available_memory() / 4),
-          network(options.port, {.at_the_door = [this](const RequestHead& head) { return access.answer(head); },
-                                 .refusal = AccessControl::refusal,
-                                 .answer = [this](const RequestHead& head, const Peer& peer) { return answer(head, peer); }}),
-          access(network.port(), token) {}
+          network(options.port > 0 ? options.port : options.link.port, options.port == 0,
+                  {.at_the_door = [this](const RequestHead& head) { return access.answer(head); },
+                   .refusal = AccessControl::refusal,
+                   .answer = [this](const RequestHead& head, const Peer& peer) { return answer(head, peer); }}),
+          access(network.port(), {token, options.link.cookie, options.link.key, options.link.is_kept}) {}
 
     /// An authorised request. True: another request may follow.
     bool answer(const RequestHead& head, const Peer& peer) {

@@ -50,15 +50,8 @@ void ignore(const error_code&) {}
 
 class Network::Connections {
 public:
-    Connections(int port, Answers answers) : answers_(std::move(answers)) {
-        try {
-            const tcp::endpoint here(asio::ip::address_v4::loopback(), static_cast<std::uint16_t>(port));
-            acceptor_.open(here.protocol());
-            acceptor_.set_option(asio::socket_base::reuse_address(true));  // Linux: two sockets never listen at once
-            acceptor_.bind(here);
-            acceptor_.listen();
-            acceptor_.non_blocking(true);
-        } catch (const boost::system::system_error&) {
+    Connections(int port, bool or_any, Answers answers) : answers_(std::move(answers)) {
+        if (!listens(port) && !(or_any && listens(0))) {
             throw Error(ErrorKind::resource, {.where = "port " + std::to_string(port),
                                               .what = "cannot listen on this port",
                                               .next = "choose another one, or let the system choose",
@@ -89,6 +82,21 @@ public:
     }
 
 private:
+    bool listens(int port) {
+        try {
+            const tcp::endpoint here(asio::ip::address_v4::loopback(), static_cast<std::uint16_t>(port));
+            if (acceptor_.is_open()) acceptor_.close();
+            acceptor_.open(here.protocol());
+            acceptor_.set_option(asio::socket_base::reuse_address(true));  // Linux: two sockets never listen at once
+            acceptor_.bind(here);
+            acceptor_.listen();
+            acceptor_.non_blocking(true);
+            return true;
+        } catch (const boost::system::system_error&) {
+            return false;
+        }
+    }
+
     void tick() {
         timer_.expires_after(kTick);
         timer_.async_wait([this](error_code) {
@@ -247,7 +255,7 @@ private:
     Workers workers_{kMaxAtOnce};  ///< the last member: its threads end before the others
 };
 
-Network::Network(int port, Answers answers) : connections_(std::make_unique<Connections>(port, std::move(answers))) {}
+Network::Network(int port, bool or_any, Answers answers) : connections_(std::make_unique<Connections>(port, or_any, std::move(answers))) {}
 Network::~Network() = default;
 int Network::port() const { return connections_->port(); }
 void Network::run() { connections_->run(); }

@@ -31,8 +31,8 @@ public:
         std::function<bool(const RequestHead&, const Peer&)> answer;
     };
 
-    /// Listens on 127.0.0.1. port: 0: any. Throws Error{resource}.
-    Network(int port, Answers answers);
+    /// Listens on 127.0.0.1. port: 0: any. or_any: also where the port is taken. Throws Error{resource}.
+    Network(int port, bool or_any, Answers answers);
     Network(const Network&) = delete;
     Network& operator=(const Network&) = delete;
     ~Network();

@@ -13,10 +13,13 @@ import urllib.request
 
 import harness
 
-# Where viewers keep their tokens, and where those look who ask.
+# Where viewers keep their tokens, and where those look who ask; where they keep their links.
 RUNTIME = pathlib.Path(tempfile.mkdtemp(prefix="isoatlas-runtime-"))
-atexit.register(shutil.rmtree, RUNTIME, ignore_errors=True)
+STATE = pathlib.Path(tempfile.mkdtemp(prefix="isoatlas-state-"))
+for private in (RUNTIME, STATE):
+    atexit.register(shutil.rmtree, private, ignore_errors=True)
 os.environ["XDG_RUNTIME_DIR"] = str(RUNTIME)
+os.environ["XDG_STATE_HOME"] = str(STATE)
 
 
 def token_file(port):

@@ -265,7 +265,7 @@ class View(harness.CliTest):
         killed.process.communicate()
         self.assertTrue(served.token_file(killed.port).exists())
         self.run_error(3, "ask", killed.port, "/api/atlas", says="no response")
-        again = served.Viewer(self.folder, "field.nrrd", "--port", str(killed.port))
+        again = served.Viewer(self.folder, "field.nrrd", "--port", str(killed.port), "--new-link")
         self.assertNotEqual(again.token, killed.token)
         self.run_ok("ask", again.port, "/api/atlas")
         self.assertEqual(again.stop()[0], 0)
@@ -285,7 +285,7 @@ class View(harness.CliTest):
         self.assertEqual(self.opened(first, "HEAD")[0], 403)   # who only looks does not use it up
         status, cookie, key = self.opened(first)
         self.assertEqual(status, 200)
-        self.assertRegex(cookie, rf"^isoatlas-{self.port}=[0-9a-f]{{32}}; Path=/; HttpOnly; SameSite=Strict$")
+        self.assertRegex(cookie, rf"^isoatlas-{self.port}=[0-9a-f]{{32}}; Path=/; HttpOnly; SameSite=Strict; Max-Age=2592000$")
         self.assertNotIn(self.token, cookie + key)
         self.assertEqual(self.opened(first), (403, None, None))
         self.assertEqual(self.opened(first[:-1] + "x")[0], 403)

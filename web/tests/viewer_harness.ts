@@ -31,7 +31,7 @@ export class Served {
     readonly token: string,
     /** the served store, in the folder */
     readonly store: string,
-    private readonly server: ChildProcess,
+    private server: ChildProcess,
     readonly browser: Browser,
   ) {}
 
@@ -58,9 +58,7 @@ export class Served {
 
   private static async begin(folder: string, name: string, options: string[] = []): Promise<Served> {
     const token = crypto.randomUUID().replaceAll("-", "");
-    const env = { ...process.env, ISOATLAS_TOKEN: token, XDG_RUNTIME_DIR: folder };
-    const server = spawn(cli, ["view", `${name}.nrrd`, "--no-browser", "--quiet", ...options], { cwd: folder, env });
-    const address = await new Promise<string>((resolve) => server.stdout?.once("data", (bytes: Buffer) => resolve(String(bytes).trim())));
+    const { server, address } = await started(folder, token, [`${name}.nrrd`, ...options]);
     const browser = await chromium.launch({ executablePath: browserFile, args: SOFTWARE_DRAWING });
     return new Served(folder, new URL(address).origin, token, `${name}.atlas`, server, browser);
   }
@@ -74,6 +72,19 @@ export class Served {
   /** Ends only the server. */
   end(): void {
     this.server.kill("SIGINT");
+  }
+
+  /** Kills the server; resolves when it has ended. */
+  async kill(): Promise<void> {
+    const ended = new Promise((resolve) => this.server.once("exit", resolve));
+    this.server.kill("SIGKILL");
+    await ended;
+  }
+
+  /** Starts it again, on its port and with its token. store: another one. */
+  async restart(store = this.store, ...options: string[]): Promise<void> {
+    const { server } = await started(this.folder, this.token, [store, "--port", new URL(this.origin).port, ...options]);
+    this.server = server;
   }
 
   async close(): Promise<void> {
@@ -100,6 +111,14 @@ export class Served {
     await tab.waitForSelector(".objects [role=tab]");
     return { tab, problems };
   }
+}
+
+/** The server, and the address that it prints. */
+async function started(folder: string, token: string, words: string[]): Promise<{ server: ChildProcess; address: string }> {
+  const env = { ...process.env, ISOATLAS_TOKEN: token, XDG_RUNTIME_DIR: folder, XDG_STATE_HOME: folder };
+  const server = spawn(cli, ["view", ...words, "--no-browser", "--quiet"], { cwd: folder, env });
+  const address = await new Promise<string>((resolve) => server.stdout?.once("data", (bytes: Buffer) => resolve(String(bytes).trim())));
+  return { server, address };
 }
 
 /** Creates a folder with a phantom; returns it and the name of its file without .nrrd. */

@@ -81,8 +81,8 @@ struct Arguments {
     std::uint64_t seed = 1;
 
     // Server
-    int port = 0;  ///< 0: any
-    bool no_browser = false, read_only = false;
+    int port = 0;  ///< 0: that of the links of the store, or any
+    bool no_browser = false, read_only = false, new_link = false;
 
     // Output
     ShellChoice shell = ShellChoice::all;

@@ -131,9 +131,11 @@ void atlas_options(CLI::App& app, Arguments& arguments, Typed& typed) {
 }
 
 void view_options(CLI::App& app, Arguments& arguments, Typed& typed) {
-    add_number(app, "--port", arguments.port, "Listen on this port of 127.0.0.1 (default: any free port)")
+    add_number(app, "--port", arguments.port,
+               "Listen on this port of 127.0.0.1 (default: always the same one for this store, if it is free)")
         ->check(in_range(1, 65535))
         ->type_name("N");
+    app.add_flag("--new-link", arguments.new_link, "Earlier links to views of this store do not open any more");
     app.add_flag("--no-browser", arguments.no_browser, "Only print the address");
     app.add_flag("--read-only", arguments.read_only, "Write nothing, not even a store");
     add_build(app, arguments, typed);

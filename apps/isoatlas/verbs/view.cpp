@@ -80,11 +80,22 @@ void prepare(Server& server) {
     server.prepare(context);
 }
 
-/// The token of the environment; else a random one, stored for other commands of this user.
-ServerOptions server_options(const Arguments& arguments) {
+/// The token of the environment; else that of the links of the store.
+ServerOptions server_options(const Arguments& arguments, const std::string& store) {
     const char* token = std::getenv("ISOATLAS_TOKEN");
-    return {
-        .port = arguments.port, .token = token == nullptr ? "" : token, .memory = arguments.memory, .is_read_only = arguments.read_only};
+    return {.port = arguments.port,
+            .token = token == nullptr ? "" : token,
+            .memory = arguments.memory,
+            .is_read_only = arguments.read_only,
+            .link = link_of_store(store, arguments.new_link)};
+}
+
+/// What a user should know of links that do not open, or will not.
+void tell_of_links(const ServerOptions& options, const Server& server, Terminal& terminal) {
+    if (!options.link.note.empty()) terminal.say("note: " + options.link.note);
+    if (options.port != 0 || server.port() == options.link.port) return;
+    terminal.say("note: port " + std::to_string(options.link.port) +
+                 ", to which links to this store lead, is in use; this viewer has port " + std::to_string(server.port()));
 }
 
 void keep_token(Server& server, Terminal& terminal) {
@@ -140,7 +151,9 @@ int run_view(const Arguments& arguments, Terminal& terminal) {
         open_store();
         check_is_volume(arguments, atlas->info());
     }
-    Server server(server_options(arguments), context_of(arguments));
+    const ServerOptions server_choices = server_options(arguments, store);
+    Server server(server_choices, context_of(arguments));
+    tell_of_links(server_choices, server, terminal);
     keep_token(server, terminal);
     if (atlas) server.open(*atlas, low ? &*low : nullptr);
     const Answering answering(server);

@@ -30,7 +30,7 @@ protected:
     }
 
     AccessControl::Clock::time_point now_{};
-    AccessControl access_{80, "0123456789abcdef", [this] { return now_; }};
+    AccessControl access_{80, {"0123456789abcdef"}, [this] { return now_; }};
 };
 
 TEST_F(DoorTest, AProgramCarriesTheToken) {

@@ -28,14 +28,17 @@ import { addIsovalueSteps } from "./panels/isovalue_steps";
 import { firstToShow } from "../shared/cards";
 import { addThemeAction } from "./context/theme";
 import { Tour } from "./tour";
-import { waitForPage } from "./waiting";
+import { ownKey, waitForPage } from "./waiting";
 import "./viewer.css";
 import "./panels/scene.css";
 
 class Viewer implements ViewerContext {
   readonly history: History;
   readonly viewport = new Viewport(() => this.history.go({ ...this.history.now, view: this.viewport.rig.view }));
-  readonly actions = new Actions();
+  readonly actions = new Actions(
+    () => this.api.connection.problem,
+    (text) => this.notify(text),
+  );
   readonly overlay = html("div", { class: "viewport" });
   readonly editor: Editor;
   readonly scene: Scene;
@@ -83,7 +86,16 @@ class Viewer implements ViewerContext {
       this.show(NOTHING, NOTHING, false);
       this.notify("No objects to show: all of them are below noise level.");
     }
+    api.connection.onChange(() => this.followConnection());
     tour.begin();
+  }
+
+  /** Requests what failed while there was no connection. */
+  private followConnection(): void {
+    if (this.api.connection.state !== "up") return;
+    this.history.amend(this.history.now);
+    void this.loadCatalogue();
+    this.notify("connected again");
   }
 
   /** Loads what the first image does not need. */
@@ -135,15 +147,6 @@ class Viewer implements ViewerContext {
 function firstOf(page: Page, hash: string): number {
   const named = page.entries.findIndex((_, i) => `#${referenceOf(page, i)}` === hash);
   return named >= 0 ? named : firstToShow(page);
-}
-
-/** The key of this browser, issued by the server; every request carries it in addition to a cookie. */
-function ownKey(): string {
-  try {
-    return localStorage.getItem("isoatlas") ?? "";
-  } catch {
-    return ""; // storage is disabled; the server responds with an explanation
-  }
 }
 
 async function start(main: HTMLElement): Promise<void> {

@@ -1,6 +1,7 @@
 // Menus of all actions by group, and the list of keys ('?').
 import { html } from "../shared/dom";
 import type { Action, Actions, Group } from "./context/actions";
+import { markBlocked } from "./context/needs_server";
 
 const GROUPS: Group[] = ["Objects", "Isovalue", "Scene", "View", "Tools", "Export", "Help"];
 const SIGNS: Record<string, string> = { ArrowLeft: "←", ArrowRight: "→", ArrowUp: "↑", ArrowDown: "↓", " ": "space" };
@@ -24,7 +25,7 @@ export function menus(actions: Actions): HTMLElement {
     const menu = html("details", { name: "menu" }, html("summary", {}, group), list);
     menu.addEventListener("toggle", () => {
       const own = actions.all.filter((action) => action.group === group);
-      list.replaceChildren(...own.map((action) => html("li", {}, buttonOf(action, close))));
+      list.replaceChildren(...own.map((action) => html("li", {}, buttonOf(actions, action, close))));
     });
     bar.append(menu);
   }
@@ -50,13 +51,14 @@ function walk(event: KeyboardEvent, open: HTMLElement | null): void {
   event.stopPropagation(); // otherwise the camera turns
 }
 
-function buttonOf(action: Action, done: () => void): HTMLElement {
+function buttonOf(actions: Actions, action: Action, done: () => void): HTMLElement {
   const run = (): void => {
     done();
-    action.run();
+    actions.run(action);
   };
   const button = html("button", { type: "button", click: run }, html("span", {}, action.name), html("kbd", {}, signsOf(action)));
   if (action.isOn) button.setAttribute("aria-pressed", String(action.isOn()));
+  markBlocked(button, actions.whyBlocked(action));
   return button;
 }
 

@@ -10,12 +10,26 @@ const BUSY_DELAY = 400;
 
 function connectionErrorText(error: unknown): string {
   if (!(error instanceof ServerError)) {
-    const again = "Start it again and open its address; append the part behind # to restore this view.";
-    return `Connection lost: isoatlas view has ended. ${again}`;
+    return "Connection lost: isoatlas view has ended. When it runs again, this page continues.";
   }
   if (error.status !== 403) return error.message;
-  const again = "Open a new address: isoatlas view prints one when it starts, and when you press Enter.";
+  const again = "Open a new address: isoatlas view prints one when it starts, and when you press Enter; this page then continues.";
   return `The token of this page is invalid: it belongs to an isoatlas view that has ended. ${again}`;
+}
+
+/** The key of this browser, issued by the server; every request carries it in addition to a cookie. */
+export function ownKey(): string {
+  try {
+    return localStorage.getItem("isoatlas") ?? "";
+  } catch {
+    return ""; // storage is disabled; the server responds with an explanation
+  }
+}
+
+/** Equal for pages that call the same objects by the same numbers. */
+function identityOf({ volume, entries, branches }: Page): string {
+  const { name, size, unit } = volume;
+  return JSON.stringify([name, size, unit, entries.map(({ id, tau }) => [id, tau]), branches.length]);
 }
 
 class LoadingCard {
@@ -62,6 +76,18 @@ class LoadingCard {
     this.card.remove();
   }
 
+  /** The server of this address has been started with another store. */
+  replaced(name: string): void {
+    this.wait("");
+    const reload = (): void => {
+      history.replaceState(null, "", location.pathname); // this view is of the earlier volume
+      location.reload();
+    };
+    const button = html("button", { type: "button", click: reload }, "Reload");
+    this.note.replaceChildren(`The server now shows another volume, ${name}; reload the page to see it. `, button);
+    this.note.hidden = false;
+  }
+
   /** The connection failed, or the server rejected it. */
   disconnected(error: unknown): void {
     this.wait("");
@@ -88,22 +114,39 @@ class LoadingCard {
  */
 export async function waitForPage(api: Api, main: HTMLElement): Promise<Page> {
   let waiting: LoadingCard | undefined;
+  let identity = "";
   await new Promise<void>((resolve) => {
     const own = (waiting = new LoadingCard(main, resolve));
     const listen = async (): Promise<void> => {
       try {
-        for await (const state of api.events()) own.show(state);
+        for await (const state of api.events()) {
+          own.show(state);
+          if (state.state === "open" && api.connection.state !== "up") await reconnect(api, own, identity);
+        }
         own.disconnected(null);
       } catch (error) {
         own.disconnected(error);
       }
+      api.connection.set("lost");
+      api.takeKey(ownKey());
       setTimeout(() => void listen(), RETRY_DELAY);
     };
     void listen();
   });
   try {
-    return await api.page();
+    const page = await api.page();
+    identity = identityOf(page);
+    return page;
   } finally {
     waiting?.end();
   }
+}
+
+/** identity: of the page that is shown; empty: none yet. */
+async function reconnect(api: Api, card: LoadingCard, identity: string): Promise<void> {
+  if (identity === "") return api.connection.set("up");
+  const page = await api.page();
+  const isSame = identityOf(page) === identity;
+  api.connection.set(isSame ? "up" : "other");
+  if (!isSame) card.replaced(page.volume.name);
 }

@@ -2,6 +2,7 @@
 import { voxelWord } from "../../shared/names";
 import { readPage, type Page, type Picture } from "../../shared/page";
 import type { BranchList } from "./catalogue";
+import { Connection } from "./connection";
 import { messages, type ServerState } from "./server_state";
 import type { ShellFilter } from "../state/state";
 import { decodeMesh, type Mesh } from "../../shared/wire";
@@ -58,6 +59,9 @@ export interface GivenName {
 /** between polls for pending requests, in milliseconds */
 const PAUSE = 50;
 
+/** the request that tells whether a server has the volume of the page */
+const PAGE_CHANNEL = "atlas";
+
 /** requests that give immediate feedback, sent before others */
 const PREVIEW_CHANNEL = "preview";
 
@@ -85,18 +89,24 @@ export function failureText(error: unknown): string {
 }
 
 export class Api {
+  readonly connection = new Connection();
   private readonly client = crypto.randomUUID();
   private surfaces = 0;
   private readonly channels = new Map<string, AbortController>();
 
   constructor(
     /** of this browser, or the token of a program */
-    private readonly token: string,
+    private token: string,
     private readonly base = "",
   ) {}
 
+  /** Another tab may have got another key, from a server that runs again. */
+  takeKey(key: string): void {
+    if (key !== "") this.token = key;
+  }
+
   async page(): Promise<Page> {
-    const page = readPage(await (await this.request("/api/atlas", "atlas")).text());
+    const page = readPage(await (await this.request("/api/atlas", PAGE_CHANNEL)).text());
     if (page === null) throw new Error("The response of the server is not an atlas. Reload the page.");
     return page;
   }
@@ -197,6 +207,7 @@ export class Api {
 
   async request(path: string, channel: string, method = "GET"): Promise<Response> {
     this.abort(channel);
+    if (this.connection.problem !== "" && channel !== PAGE_CHANNEL) throw new ConnectionError(); // it might reach another volume
     const controller = new AbortController();
     this.channels.set(channel, controller);
     const headers = { Authorization: `Bearer ${this.token}`, "X-Client": `${this.client}/${channel}` };

@@ -4,7 +4,7 @@ import { html } from "../../shared/dom";
 import { describe } from "../../shared/names";
 import type { Page, Picture } from "../../shared/page";
 import { turntable } from "../../shared/turntable";
-import { isSuperseded, type Api } from "./api";
+import { ConnectionError, isSuperseded, type Api } from "./api";
 import { EVERYTHING } from "./entries";
 
 const FRAMES = 12;
@@ -18,13 +18,21 @@ interface Place {
 export class Pictures {
   private waiting: Place[] = [];
   private isLoading = false;
+  /** without a connection */
+  private readonly missed = new Set<Place>();
   private readonly places = new Map<Element, Place>();
   private readonly sight = new IntersectionObserver((all) => all.forEach((one) => this.onIntersection(one)), { rootMargin: "120px" });
 
   constructor(
     private readonly api: Api,
     private readonly page: Page,
-  ) {}
+  ) {
+    api.connection.onChange(() => {
+      if (api.connection.state !== "up") return;
+      for (const place of this.missed) this.request(place, false);
+      this.missed.clear();
+    });
+  }
 
   /** The element that will contain the picture of an object. */
   placeOf(number: number): HTMLElement {
@@ -72,7 +80,10 @@ export class Pictures {
       this.put(place, picture);
     } catch (error) {
       if (isSuperseded(error)) place.frames = 0;
-      else place.element.textContent = "no picture"; // the object can be shown nevertheless
+      else if (error instanceof ConnectionError) {
+        place.frames = frames === 1 ? 0 : 1;
+        this.missed.add(place);
+      } else place.element.textContent = "no picture"; // the object can be shown nevertheless
     }
   }
 

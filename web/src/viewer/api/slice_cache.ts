@@ -23,7 +23,7 @@ export class SliceCache {
   get(axis: AxisNumber, index: number): Slice | null {
     const slice = this.kept.get(axis)?.find((one) => one.index === index);
     if (slice) return slice;
-    this.requests[axis]?.request(index, String(index));
+    this.requests[axis]?.request(index, `${index} ${this.api.connection.count}`);
     return null;
   }
 

@@ -1,5 +1,5 @@
 // Loads surfaces of objects, one channel an object: coarse ones during a drag, full ones when it ends.
-import { failureText, isSuperseded, type Api, type SurfaceTarget } from "./api";
+import { ConnectionError, failureText, isSuperseded, type Api, type SurfaceTarget } from "./api";
 import { countComponents } from "./count_components";
 import type { ShellFilter } from "../state/state";
 import type { Mesh } from "../../shared/wire";
@@ -71,7 +71,7 @@ export class Surfaces {
       channel.next = request;
       return;
     }
-    const levels = dragging ? [COARSE] : loadState.key === key ? [FULL] : [COARSE, FULL];
+    const levels = dragging ? [COARSE] : loadState.key === key && loadState.error === "" ? [FULL] : [COARSE, FULL];
     channel.untilFull = !dragging;
     channel.key = key;
     this.track(this.load(entry, channel, request, levels));
@@ -120,6 +120,7 @@ export class Surfaces {
       }
     } catch (error) {
       if (isStale() || isSuperseded(error)) return;
+      if (error instanceof ConnectionError) channel.key = ""; // the same request is made again when there is a connection
       channel.loadState = { ...NONE, key, error: failureText(error) };
       this.onMesh(entry, null, request.tau);
     }

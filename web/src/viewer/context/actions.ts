@@ -10,10 +10,29 @@ export interface Action {
   run(): void;
   /** of a toggle */
   isOn?(): boolean;
+  /** does nothing without a connection */
+  needsServer?: boolean;
 }
 
 export class Actions {
   readonly all: Action[] = [];
+
+  /** problem: of the connection; empty: none. tell: says it. */
+  constructor(
+    private readonly problem: () => string = () => "",
+    private readonly tell: (text: string) => void = () => undefined,
+  ) {}
+
+  /** Why it does nothing; empty: it works. */
+  whyBlocked(action: Action): string {
+    return action.needsServer ? this.problem() : "";
+  }
+
+  run(action: Action): void {
+    const why = this.whyBlocked(action);
+    if (why === "") action.run();
+    else this.tell(`${action.name}: ${why}`);
+  }
 
   add(...actions: Action[]): void {
     this.all.push(...actions);
@@ -32,7 +51,7 @@ export class Actions {
         target.querySelector("dialog[open]")
       )
         return;
-      action.run();
+      this.run(action);
       event.preventDefault();
     });
     // A menu takes letters to search in it; who chose with a pointer has done that, and means the keys of the viewer.

@@ -6,6 +6,7 @@ import type { PictureOptions } from "./picture";
 import { LABELS, Exporter, SEGMENTATIONS, SURFACES } from "./exporter";
 import { ownRange, titleOf } from "../api/entries";
 import { isDarkPage } from "../context/theme";
+import { whileConnected } from "../context/needs_server";
 
 const MIN = 16;
 const MAX = 8192;
@@ -61,6 +62,7 @@ export class ExportDialog {
     const file = html("input", { type: "file", accept: ".json,application/json", "aria-label": "scene file to load" });
     file.addEventListener("change", () => void this.load(file));
     const button = (name: string, run: () => unknown): HTMLElement => html("button", { type: "button", click: () => void run() }, name);
+    const fromServer = (name: string, run: () => unknown): HTMLElement => whileConnected(this.context.api.connection, button(name, run));
     this.element.append(
       html(
         "header",
@@ -74,22 +76,22 @@ export class ExportDialog {
         html("p", {}, this.of),
         line(
           surface,
-          button("Save the surface", () => exporter.surface(surface.value)),
+          fromServer("Save the surface", () => exporter.surface(surface.value)),
         ),
         line(
           labels,
-          button("Save the labels", () => exporter.labels(labels.value)),
+          fromServer("Save the labels", () => exporter.labels(labels.value)),
         ),
       ),
       part(
         "Everything shown, each at its isovalue",
         line(
           surfaces,
-          button("Save all surfaces", () => exporter.everything("surfaces", surfaces.value)),
+          fromServer("Save all surfaces", () => exporter.everything("surfaces", surfaces.value)),
         ),
         line(
           segmentation,
-          button("Save all labels", () => exporter.everything("segmentation", segmentation.value)),
+          fromServer("Save all labels", () => exporter.everything("segmentation", segmentation.value)),
         ),
       ),
       part(
@@ -124,13 +126,19 @@ export class ExportDialog {
     const surface = (format: string) => ({
       group: "Export" as const,
       name: `Surface as ${format.toUpperCase()}`,
+      needsServer: true,
       run: () => void exporter.surface(format),
     });
     this.context.actions.add(
       { group: "Export", name: "Export...", keys: ["s", "Ctrl+s"], run: () => this.open() },
       { group: "Export", name: "Copy link to this view", keys: ["l"], run: () => void exporter.link() },
       ...SURFACES.slice(0, 2).map(surface),
-      { group: "Export", name: "Everything shown as GLB", run: () => void exporter.everything("surfaces", "glb") },
+      {
+        group: "Export",
+        name: "Everything shown as GLB",
+        needsServer: true,
+        run: () => void exporter.everything("surfaces", "glb"),
+      },
       {
         group: "Export",
         name: "Image of this view",

@@ -76,7 +76,7 @@ export class IsovaluePanel {
     this.box.value = String(Number(shown.tau.toPrecision(7)));
     this.slider.value = String(Math.round(this.axis.x(shown.tau)));
     this.slider.setAttribute("aria-valuetext", value(shown.tau));
-    this.estimator.request(shown, `${shown.entry} ${shown.tau}`);
+    this.estimator.request(shown, `${shown.entry} ${shown.tau} ${this.context.api.connection.count}`);
   }
 
   private controls(): HTMLElement {

@@ -47,7 +47,8 @@ export class ObjectPanel {
     if (shown.entry !== this.entry || isMeasured !== this.isMeasured) this.describe(shown.entry, isMeasured);
     this.entry = shown.entry;
     this.isMeasured = isMeasured;
-    if (!dragging) this.measured.request(shown, `${shown.entry} ${shown.tau} ${UNIT.of(state)}`);
+    if (dragging) return;
+    this.measured.request(shown, `${shown.entry} ${shown.tau} ${UNIT.of(state)} ${this.context.api.connection.count}`);
   }
 
   /** isMeasured: the measures already show the object at its recommended isovalue. */

@@ -17,7 +17,7 @@ export class TitleEditor {
       if (event.key === "Escape") this.close();
     });
     this.box.addEventListener("blur", () => this.close());
-    context.actions.add({ group: "Objects", name: "Rename selected object...", keys: ["F2"], run: () => this.edit() });
+    context.actions.add({ group: "Objects", name: "Rename selected object...", keys: ["F2"], needsServer: true, run: () => this.edit() });
   }
 
   show(entry: number): void {
@@ -28,6 +28,8 @@ export class TitleEditor {
 
   private edit(): void {
     const shown = selectedOf(this.context.history.now);
+    const { problem } = this.context.api.connection;
+    if (problem !== "") return this.context.notify(`a name ${problem}`);
     if (!shown) return this.context.notify("select an object first");
     if (!this.context.names.canName(shown.entry)) return this.context.notify("only objects with a card have names");
     this.entry = shown.entry;

@@ -116,6 +116,7 @@ export class SliceTool {
       const place = SLICES.of(history.now) ? viewport.pointAt(...placeOn(viewport.canvas, event)) : null;
       if (place) this.move(this.grid.nearest(place.toArray()));
     });
+    this.context.api.connection.onChange(() => this.redraw());
     new ResizeObserver(() => this.redraw()).observe(this.element);
   }
 

@@ -35,6 +35,7 @@ export class VolumeTool {
     observePart(history, VOLUME_DENSITY, (factor) => void this.show(factor));
     const isOn = (): boolean => VOLUME_DENSITY.of(history.now) !== null;
     actions.add({ group: "View", name: "Volume rendering", keys: ["v"], run: () => this.toggle(), isOn });
+    context.api.connection.onChange(() => void this.show(VOLUME_DENSITY.of(history.now))); // the volume may be missing
   }
 
   private toggle(): void {
