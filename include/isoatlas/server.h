@@ -1,13 +1,16 @@
 // Server: a store behind a local address, for the viewer in a browser and for programs.
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "isoatlas/atlas.h"
 #include "isoatlas/build.h"
 #include "isoatlas/context.h"
 #include "isoatlas/error.h"
+#include "isoatlas/volume.h"
 
 namespace isoatlas {
 
@@ -26,12 +29,25 @@ struct ServerLink {
 /// to other users. The store need not be there. is_new: the secrets are replaced, earlier links do not open any more.
 [[nodiscard]] ServerLink link_of_store(const std::string& store, bool is_new = false);
 
+/// A scene that the viewer has saved: docs/scene.md.
+struct SceneFile {
+    std::string path{}, text{};
+    std::string volume{};              ///< its name
+    std::vector<std::int64_t> size{};  ///< samples along its axes
+};
+
+/// Throws Error{input}: there is no such file, it is not JSON, or not a scene.
+[[nodiscard]] SceneFile read_scene(const std::string& path);
+/// Throws Error{usage}: the scene is of a volume of another size. The page finds out whether it has the same objects.
+void check_scene(const SceneFile& scene, const VolumeInfo& info);
+
 struct ServerOptions {
     int port = 0;               ///< 1 to 65535; 0: that of the link, or any that is free
     std::string token{};        ///< what requests of programs must carry, 16 to 256 letters and digits; empty: 128 random bits
     std::int64_t memory = 0;    ///< bytes for responses in progress at a time; 0: a quarter of the memory available
     bool is_read_only = false;  ///< names of objects cannot be changed
     ServerLink link{};
+    SceneFile scene{};  ///< a page without a link to a view begins with it; none where its text is empty
 };
 
 /// Listens on 127.0.0.1 alone. Requests and responses: docs/server.md. Writes nothing to any disk but what keep_token() does, and names

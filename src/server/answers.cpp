@@ -1,6 +1,7 @@
 #include "server/answers.h"
 
 #include <algorithm>
+#include <filesystem>
 #include <limits>
 
 #include "page/page_json.h"
@@ -126,6 +127,14 @@ std::string transfer_json(std::span<const OpacityTent> tents, const Calibration&
 
 std::string address_json(const std::string& address) {
     return document("address", [&](JsonStream& json) { json.key("address").value(address); });
+}
+
+std::string scene_json(const SceneFile& scene) {
+    if (scene.text.empty()) return document("scene", [](JsonStream& json) { json.key("scene").null(); });
+    const std::string name = std::filesystem::path(scene.path).filename().string();
+    std::string text = document("scene", [&](JsonStream& json) { json.key("file").value(name); });
+    text.erase(text.rfind('}'));  // its text is JSON already
+    return text + ", \"scene\": " + scene.text + "}\n";
 }
 
 std::string error_json(const Error& error) {

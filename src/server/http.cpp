@@ -57,7 +57,7 @@ struct Server::Data {
 
     Data(const ServerOptions& options, const Context& context)
         : token(checked_token(options.token.empty() ? options.link.token : options.token)),
-          service(token, context, {.memory = options.memory, .is_read_only = options.is_read_only}),
+          service(token, context, {.memory = options.memory, .is_read_only = options.is_read_only, .scene = options.scene}),
           most_on_its_way(options.memory > 0 ? options.memory : available_memory() / 4),
           network(options.port > 0 ? options.port : options.link.port, options.port == 0,
                   {.at_the_door = [this](const RequestHead& head) { return access.answer(head); },

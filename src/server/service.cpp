@@ -74,7 +74,8 @@ Service::Service(std::string token, const Context& context, const ServiceOptions
       store_state_(changes_),
       queues_(changes_),
       events_(store_state_, queues_, changes_),
-      naming_(options.is_read_only) {
+      naming_(options.is_read_only),
+      scene_(scene_json(options.scene)) {
     context_.progress = {};
     context_.cancelled = [this] { return ended_.load(); };
 }
@@ -117,6 +118,10 @@ Response Service::answer_known(const Request& request) {
         QueryParameters(request.words).reject_unknown();
         return json_answer(known(request).atlas);
     }
+    if (request.path == "/api/scene") {
+        QueryParameters(request.words).reject_unknown();
+        return json_answer(scene_);
+    }
     if (request.path == "/api/preview") return preview_answer(request);
     if (request.path == "/api/objects") return objects_answer(request);
     if (request.path == "/api/measures") return measures_answer(request);
@@ -134,11 +139,12 @@ Response Service::answer_known(const Request& request) {
     if (request.path == "/api/name") return naming_.change(numbered_sides(request), request);
     if (request.path == "/api/slice") return samples_answer(request, slice_answer);
     if (request.path == "/api/volume") return samples_answer(request, volume_answer);
-    throw Error(ErrorKind::not_found, {.where = request.path.substr(0, 100),
-                                       .what = "no such path",
-                                       .expected = "/api/ and one of: events, atlas, preview, objects, measures, branches, card, surface, "
-                                                   "surfaces, label, segmentation, slice, volume, at, transfer, names, name, address",
-                                       .next = "docs/server.md lists the requests"});
+    throw Error(ErrorKind::not_found,
+                {.where = request.path.substr(0, 100),
+                 .what = "no such path",
+                 .expected = "/api/ and one of: events, atlas, preview, objects, measures, branches, card, surface, "
+                             "surfaces, label, segmentation, slice, volume, at, transfer, scene, names, name, address",
+                 .next = "docs/server.md lists the requests"});
 }
 
 Response Service::samples_answer(const Request& request, Response (*make)(const Atlas&, const Request&, const Context&)) {

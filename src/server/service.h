@@ -17,6 +17,7 @@
 //   /api/transfer                           the transfer function that the tree proposes
 //   /api/surfaces?object=REF,...[&contour=REF,...][&format=glb]        several objects, each at its isovalue (server/several_objects.h)
 //   /api/segmentation?object=REF,...[&contour=REF,...][&format=...]    their labels
+//   /api/scene                              where a page begins that is opened without a link to a view
 //   /api/names                              names of objects (server/naming.h)
 //   PUT /api/name?object=REF&name=N         gives one
 //
@@ -31,6 +32,7 @@
 
 #include "isoatlas/atlas.h"
 #include "isoatlas/context.h"
+#include "isoatlas/server.h"
 #include "preview/wire_mesh.h"
 #include "server/cards.h"
 #include "server/event_stream.h"
@@ -48,6 +50,7 @@ namespace isoatlas {
 struct ServiceOptions {
     std::int64_t memory = 0;    ///< bytes for responses in progress; 0: a quarter of the available memory
     bool is_read_only = false;  ///< names cannot be changed
+    SceneFile scene{};          ///< where pages begin; empty: nowhere
 };
 
 class Service {
@@ -113,6 +116,7 @@ private:
     EventStreams events_;
     Cards cards_;
     Naming naming_;
+    const std::string scene_;  ///< the response to this request
     SharedOnce<StoreCatalogue> known_;
     SharedOnce<WireMesh> first_;  ///< coarse: some ten kilobytes
     std::atomic<bool> ended_ = false;

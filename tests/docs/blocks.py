@@ -63,7 +63,7 @@ def run(text, pictures=None):
         (bin_folder / "isoatlas").symlink_to(os.environ["ISOATLAS_CLI"])
         for file in data:
             (work / file.name).symlink_to(file)
-        environment = dict(os.environ, PATH=f"{bin_folder}:{os.environ['PATH']}")
+        environment = dict(os.environ, PATH=f"{bin_folder}:{os.environ['PATH']}", XDG_STATE_HOME=folder)
         for mark, _, body in blocks_of(text):
             if mark.startswith("run"):
                 printed = start(mark, body, work, environment)

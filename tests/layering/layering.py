@@ -62,7 +62,7 @@ DOORS = {
     r"iostream|print": r"apps/.*|tests/.*|bench/.*",
     r"cassert|assert\.h": r"(?!)",
     r"CLI/.*|fmt/.*": r"apps/.*",
-    r"nlohmann/.*": r"apps/.*|tests/.*|bench/.*|src/formats/.*|src/store/contents\.cpp|src/server/client\.cpp",
+    r"nlohmann/.*": r"apps/.*|tests/.*|bench/.*|src/formats/.*|src/store/contents\.cpp|src/server/(?:client|scene_file)\.cpp",
     r"libdeflate\.h": r"src/codec/chunk_codec\.cpp|src/image/png\.cpp|src/server/coding\.cpp",
     r"zstd\.h": r"src/server/coding\.cpp",
     r"boost/(asio|beast)/.*": r"src/server/(network|request_head|response_reader)\.cpp|tests/.*",

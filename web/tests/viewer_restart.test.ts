@@ -1,7 +1,12 @@
 // The server ends and is started again: what the open page says and does, and what a link shows.
+import { writeFileSync } from "node:fs";
+import { join } from "node:path";
 import type { Page as Tab } from "playwright-core";
 import { afterEach, beforeEach, describe, expect, it } from "vitest";
 import { canServe, meshes, Served } from "./viewer_harness";
+
+const SIZE = [96, 96, 96]; // of the phantom
+const SCENE = { schema: "isoatlas/scene/1", volume: { name: "demo", size: SIZE }, view: null, parts: {} };
 
 /** A tab of a browser that can have more of them. */
 async function opened(served: Served): Promise<Tab> {
@@ -89,5 +94,31 @@ describe.skipIf(!canServe)("a server that is started again", () => {
     await tab.getByRole("button", { name: "Reload" }).click();
     await tab.waitForSelector(".objects [role=tab]");
     expect(await tab.title()).toContain("chain");
+  }, 240_000);
+
+  it("with a scene begins with it, unless the link has another view", async () => {
+    const tab = await opened(served);
+    await tab.getByRole("button", { name: /^Object 2/ }).first().click();
+    await expect.poll(() => tab.url(), { timeout: 60_000 }).toContain("view=");
+    const link = await hash(tab);
+    await tab.locator("summary", { hasText: "Export" }).click();
+    const download = tab.waitForEvent("download");
+    await tab.getByRole("button", { name: "Scene file" }).click();
+    const file = join(served.folder, "saved.json");
+    await (await download).saveAs(file);
+    await served.kill();
+    await served.restart(served.store, "--scene", "saved.json");
+    const other = await opened(served);
+    await expect.poll(() => hash(other)).toBe(link);
+    await other.goto(`${served.origin}/#scene=0,100,1,1&selected=0`);
+    await other.reload();
+    await other.waitForSelector(".objects [role=tab]");
+    expect(await hash(other)).toContain("scene=0,100,1,1");
+    await served.kill();
+    const scene = { ...SCENE, shown: [{ entry: 0, id: 7, tau: 1, opacity: 1, visible: true, colour: null, walls: "all" }], selected: 0 };
+    writeFileSync(file, JSON.stringify(scene));
+    await served.restart(served.store, "--scene", "saved.json");
+    const wrong = await opened(served);
+    await wrong.getByRole("status").getByText("saved.json is not shown. shown[0].id is 7").waitFor();
   }, 240_000);
 });

@@ -82,6 +82,7 @@ struct Arguments {
 
     // Server
     int port = 0;  ///< 0: that of the links of the store, or any
+    std::string scene;  ///< file; empty: none
     bool no_browser = false, read_only = false, new_link = false;
 
     // Output

@@ -136,6 +136,7 @@ void view_options(CLI::App& app, Arguments& arguments, Typed& typed) {
         ->check(in_range(1, 65535))
         ->type_name("N");
     app.add_flag("--new-link", arguments.new_link, "Earlier links to views of this store do not open any more");
+    app.add_option("--scene", arguments.scene, "Begin with the scene of FILE, which the viewer saved")->type_name("FILE");
     app.add_flag("--no-browser", arguments.no_browser, "Only print the address");
     app.add_flag("--read-only", arguments.read_only, "Write nothing, not even a store");
     add_build(app, arguments, typed);

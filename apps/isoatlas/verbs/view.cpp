@@ -90,6 +90,18 @@ ServerOptions server_options(const Arguments& arguments, const std::string& stor
             .link = link_of_store(store, arguments.new_link)};
 }
 
+/// Without --scene an empty one.
+SceneFile scene_of(const Arguments& arguments) { return arguments.scene.empty() ? SceneFile() : read_scene(arguments.scene); }
+
+/// Is the scene one of the volume? Of a store that another process builds, the page says so.
+void check_scene_of(const Arguments& arguments, const SceneFile& scene, const std::optional<Atlas>& atlas) {
+    if (arguments.scene.empty()) return;
+    if (atlas)
+        check_scene(scene, atlas->info());
+    else if (!arguments.file.ends_with(".atlas"))
+        check_scene(scene, open_volume(arguments.file, arguments.open)->info());
+}
+
 /// What a user should know of links that do not open, or will not.
 void tell_of_links(const ServerOptions& options, const Server& server, Terminal& terminal) {
     if (!options.link.note.empty()) terminal.say("note: " + options.link.note);
@@ -135,6 +147,7 @@ void wait_for_the_end(const Arguments& arguments, Terminal& terminal, Server& se
 int run_view(const Arguments& arguments, Terminal& terminal) {
     if (arguments.inputs.are_labels) refuse_labels(arguments);
     keep_memory_flat();
+    const SceneFile scene = scene_of(arguments);
     const std::string store = store_to_view(arguments);
     AtlasOptions options{.cache_bytes = arguments.memory, .polarity = arguments.side()};
     if (store == arguments.file) options.corrections = corrections_of(arguments);
@@ -151,7 +164,9 @@ int run_view(const Arguments& arguments, Terminal& terminal) {
         open_store();
         check_is_volume(arguments, atlas->info());
     }
-    const ServerOptions server_choices = server_options(arguments, store);
+    check_scene_of(arguments, scene, atlas);
+    ServerOptions server_choices = server_options(arguments, store);
+    server_choices.scene = scene;
     Server server(server_choices, context_of(arguments));
     tell_of_links(server_choices, server, terminal);
     keep_token(server, terminal);

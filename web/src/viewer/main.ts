@@ -19,6 +19,7 @@ import { addTools } from "./tools/tools";
 import { help, menus } from "./menus";
 import { ObjectPanel } from "./panels/object_panel";
 import { ExportDialog } from "./export/export_dialog";
+import { readScene } from "./export/scene_file";
 import { Scene } from "./scene/scene";
 import { addSceneActions } from "./panels/scene_actions";
 import { ScenePanel } from "./panels/scene_panel";
@@ -149,6 +150,18 @@ function firstOf(page: Page, hash: string): number {
   return named >= 0 ? named : firstToShow(page);
 }
 
+/** That of the address; else that of the scene with which the server was started. */
+async function firstState(api: Api, page: Page, catalogue: Catalogue): Promise<{ state: State | null; problem: string }> {
+  const scene = location.hash === "" ? await api.scene() : null;
+  if (!scene) return { state: fromHash(location.hash, numbersOf(page)), problem: "" };
+  try {
+    catalogue.load(await api.branches(MAX_LISTED)); // it may show any of the objects
+    return { state: readScene(page, scene.text), problem: "" };
+  } catch (error) {
+    return { state: null, problem: `${scene.file} is not shown. ${error instanceof Error ? error.message : String(error)}` };
+  }
+}
+
 async function start(main: HTMLElement): Promise<void> {
   const api = new Api(ownKey());
   try {
@@ -156,10 +169,12 @@ async function start(main: HTMLElement): Promise<void> {
     document.title = `${page.volume.name} – isoatlas`;
     if (page.volume.size.length !== 3)
       throw new Error("The viewer needs a 3D volume. For a 2D image, run isoatlas with the name of its file to write a page.");
-    const linked = fromHash(location.hash, numbersOf(page));
     const catalogue = new Catalogue(page);
-    if (linked && needsAll(page, linked)) catalogue.load(await api.branches(MAX_LISTED));
-    await new Viewer(api, page, catalogue, linked, main).loadCatalogue();
+    const { state, problem } = await firstState(api, page, catalogue);
+    if (state && needsAll(page, state) && !catalogue.isLoaded) catalogue.load(await api.branches(MAX_LISTED));
+    const viewer = new Viewer(api, page, catalogue, state, main);
+    if (problem !== "") viewer.notify(problem);
+    await viewer.loadCatalogue();
   } catch (error) {
     main.append(html("p", { role: "alert" }, error instanceof Error ? error.message : String(error)));
   }

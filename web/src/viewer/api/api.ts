@@ -111,6 +111,12 @@ export class Api {
     return page;
   }
 
+  /** The scene that the server was started with, as text, and the name of its file; null: none. */
+  async scene(): Promise<{ file: string; text: string } | null> {
+    const { scene, file } = (await (await this.request("/api/scene", "scene")).json()) as { scene: unknown; file?: string };
+    return scene === null ? null : { file: file ?? "", text: JSON.stringify(scene) };
+  }
+
   /** The objects of highest rank, at most `top`. */
   branches(top: number): Promise<BranchList> {
     return this.request(`/api/branches?top=${top}`, "branches").then((response) => response.json() as Promise<BranchList>);
