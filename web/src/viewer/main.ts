@@ -13,6 +13,7 @@ import { onClick, placeOn } from "./context/clicks";
 import type { ViewerContext } from "./context/viewer_context";
 import { Editor } from "./context/editor";
 import { ObjectNames } from "./api/object_names";
+import { Pictures } from "./api/pictures";
 import { History } from "./state/history";
 import { addUnitTool } from "./tools/unit_tool";
 import { addTools } from "./tools/tools";
@@ -40,6 +41,7 @@ class Viewer implements ViewerContext {
   readonly editor: Editor;
   readonly scene: Scene;
   readonly names: ObjectNames;
+  readonly pictures: Pictures;
   private readonly message = html("p", { class: "message", role: "status" });
   private readonly axis: IsovaluePanel;
   private readonly objectList: ObjectListPanel;
@@ -57,6 +59,7 @@ class Viewer implements ViewerContext {
     this.editor = new Editor(page, this.history);
     this.scene = new Scene(this);
     this.names = new ObjectNames(api, page);
+    this.pictures = new Pictures(api, page);
     addUnitTool(this, () => this.renewTitles()); // first: all others make text with lengths
     this.objectList = new ObjectListPanel(this);
     addIsovalueSteps(this);

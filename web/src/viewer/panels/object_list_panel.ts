@@ -9,7 +9,6 @@ import { selectedOf, type ViewerContext } from "../context/viewer_context";
 import { find, NOTHING_FOUND, type SearchResult } from "./object_search";
 import { card, row } from "./items";
 import { ItemsTab } from "./items_tab";
-import { Pictures } from "../api/pictures";
 import { ScatterTab } from "./scatter_tab";
 import type { State } from "../state/state";
 import { Tabs } from "./tabs";
@@ -43,8 +42,7 @@ export class ObjectListPanel {
   private readonly stale = new Set<TabName>(["cards", "list", "tree"]);
 
   constructor(private readonly context: ViewerContext) {
-    const { page, editor: selector, catalogue } = context;
-    const pictures = new Pictures(context.api, page);
+    const { page, editor: selector, catalogue, pictures } = context;
     this.cards = new ItemsTab("cards", (i) => card(page, i, selector, pictures));
     this.list = new ItemsTab("rows", (i) => row(page, i, selector));
     this.tree = new TreeTab(page, catalogue, selector);
