@@ -60,4 +60,42 @@ describe.skipIf(!canServe)("the panels of the viewer", () => {
     expect(problems).toEqual([]);
     await tab.close();
   });
+
+  it("leaves most of a window of 800 by 600 to the 3D view, with one panel at a time", async () => {
+    const { tab, problems } = await served.open("", { viewport: { width: 800, height: 600 } });
+    const box = async (selector: string) => (await tab.locator(selector).boundingBox()) ?? { x: 0, y: 0, width: 0, height: 0 };
+    const share = async (): Promise<number> => {
+      const { width, height } = await box(".viewport > canvas");
+      return (width * height) / (800 * 600);
+    };
+    const outside = (): Promise<string[]> =>
+      tab.evaluate(() =>
+        [...document.querySelectorAll(".menus summary, .panel-switch button, .axis *, .cube, .scale, .unit, .side, .inspector")]
+          .map((element): [string, DOMRect] => [element.outerHTML.slice(0, 80), element.getBoundingClientRect()])
+          .filter(([, { left, top, right, bottom }]) => left < 0 || top < 0 || right > 800.5 || bottom > 600.5)
+          .map(([what]) => what),
+      );
+    const panels = tab.getByRole("group", { name: "panels" });
+    for (const [name, shown, hidden] of [
+      ["Objects", ".side", ".inspector"],
+      ["Scene", ".inspector", ".side"],
+    ] as const) {
+      if (name === "Scene") await panels.getByRole("button", { name }).click();
+      expect(await panels.getByRole("button", { name }).getAttribute("aria-pressed")).toBe("true");
+      expect(await tab.locator(hidden).isVisible()).toBe(false);
+      await expect.poll(share).toBeGreaterThanOrEqual(0.55);
+      const [panel, canvas] = [await box(shown), await box(".viewport > canvas")];
+      expect(panel.x + panel.width).toBeLessThanOrEqual(canvas.x + 0.5);
+      expect(await outside()).toEqual([]);
+      const tops = await tab.locator(".menus summary").evaluateAll((all) => all.map((element) => element.getBoundingClientRect().top));
+      expect(new Set(tops).size).toBe(1); // one line
+    }
+    await panels.getByRole("button", { name: "Scene" }).click();
+    await expect.poll(share).toBeGreaterThanOrEqual(0.7);
+    await tab.keyboard.press("2"); // opens its panel as well
+    expect(await tab.locator(".side").isVisible()).toBe(true);
+    expect(await tab.evaluate(() => document.documentElement.scrollWidth)).toBeLessThanOrEqual(800);
+    expect(problems).toEqual([]);
+    await tab.close();
+  });
 });

@@ -20,6 +20,7 @@ import { addTools } from "./tools/tools";
 import { help, menus } from "./menus";
 import { ObjectPanel } from "./panels/object_panel";
 import { ExportDialog } from "./export/export_dialog";
+import { PanelSwitch } from "./panels/panel_switch";
 import { Scene } from "./scene/scene";
 import { addSceneActions } from "./panels/scene_actions";
 import { ScenePanel } from "./panels/scene_panel";
@@ -32,6 +33,7 @@ import { Tour } from "./tour";
 import { waitForPage } from "./waiting";
 import "./viewer.css";
 import "./panels/scene.css";
+import "./panels/panel_switch.css";
 
 class Viewer implements ViewerContext {
   readonly history: History;
@@ -42,6 +44,7 @@ class Viewer implements ViewerContext {
   readonly scene: Scene;
   readonly names: ObjectNames;
   readonly pictures: Pictures;
+  readonly panels: PanelSwitch;
   private readonly message = html("p", { class: "message", role: "status" });
   private readonly axis: IsovaluePanel;
   private readonly objectList: ObjectListPanel;
@@ -60,6 +63,7 @@ class Viewer implements ViewerContext {
     this.scene = new Scene(this);
     this.names = new ObjectNames(api, page);
     this.pictures = new Pictures(api, page);
+    this.panels = new PanelSwitch(main);
     addUnitTool(this, () => this.renewTitles()); // first: all others make text with lengths
     this.objectList = new ObjectListPanel(this);
     addIsovalueSteps(this);
@@ -75,7 +79,8 @@ class Viewer implements ViewerContext {
     const inspector = html("div", { class: "inspector" }, this.shown.element, this.objectPanel.element);
     this.overlay.prepend(this.viewport.canvas, menus(this.actions));
     this.overlay.append(this.message, tour.element);
-    main.append(side, this.overlay, inspector, this.axis.element, new ExportDialog(this).element, help(this.actions));
+    const dialogs = [new ExportDialog(this).element, help(this.actions)];
+    main.append(this.panels.element, side, this.overlay, inspector, this.axis.element, ...dialogs);
     this.names.onChange(() => this.renewTitles());
     this.history.listen((state, before, dragging) => this.show(state, before, dragging));
     this.actions.listen(document);

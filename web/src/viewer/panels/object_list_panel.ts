@@ -184,6 +184,7 @@ export class ObjectListPanel {
   }
 
   private focusTab(tab: TabName): void {
+    this.context.panels.open("list");
     this.open(tab);
     document.getElementById(`tab-${tab}`)?.focus();
   }
@@ -209,6 +210,7 @@ export class ObjectListPanel {
   }
 
   private find(): void {
+    this.context.panels.open("list");
     if (TAB.of(this.context.history.now) === "scatter") this.open("cards");
     this.text.focus();
     this.text.select();

@@ -30,6 +30,7 @@ export class TitleEditor {
     const shown = selectedOf(this.context.history.now);
     if (!shown) return this.context.notify("select an object first");
     if (!this.context.names.canName(shown.entry)) return this.context.notify("only objects with a card have names");
+    this.context.panels.open("scene");
     this.entry = shown.entry;
     this.box.value = entryOf(this.context.page, shown.entry).name ?? "";
     this.box.placeholder = titleOf(this.context.page, shown.entry);
