@@ -98,4 +98,43 @@ describe.skipIf(!canServe)("the panels of the viewer", () => {
     expect(problems).toEqual([]);
     await tab.close();
   });
+
+  it("says what to do while nothing is shown, and tells no measures then", async () => {
+    const { tab, problems } = await served.open();
+    const badge = tab.locator(".axis .badge");
+    const hint = tab.getByRole("region", { name: "nothing is shown" });
+    await expect.poll(() => badge.textContent()).toContain("this object");
+    expect(await hint.isVisible()).toBe(false);
+    const before = await title(tab);
+    await tab.keyboard.press("h");
+    expect(await hint.innerText()).toContain("Everything is hidden");
+    await hint.getByRole("button", { name: "Show all objects" }).click();
+    expect(await hint.isVisible()).toBe(false);
+    await tab.keyboard.press("Delete");
+    expect(await hint.innerText()).toContain("Click an object in the list");
+    await expect.poll(() => badge.textContent()).toBe("");
+    expect(await tab.locator(".object").isVisible()).toBe(false);
+    expect(await tab.getByRole("textbox", { name: "isovalue", exact: true }).inputValue()).toBe("");
+    expect(await tab.getByRole("button", { name: "play upwards" }).isDisabled()).toBe(true);
+    await hint.getByRole("button", { name: "Undo" }).click();
+    expect(await title(tab)).toBe(before);
+    await tab.keyboard.press("Delete");
+    await hint.getByRole("button", { name: "Show the first object" }).click();
+    expect(await hint.isVisible()).toBe(false);
+    await expect.poll(() => badge.textContent()).toContain("this object");
+    expect(problems).toEqual([]);
+    await tab.close();
+  });
+
+  it("names the buttons that play", async () => {
+    const { tab, problems } = await served.open();
+    for (const [name, title] of [
+      ["play downwards", /lower the isovalue/],
+      ["play upwards", /raise the isovalue/],
+    ] as const)
+      expect(await tab.getByRole("button", { name, exact: true }).getAttribute("title")).toMatch(title);
+    expect(await tab.getByRole("group", { name: "play" }).innerText()).toContain("play");
+    expect(problems).toEqual([]);
+    await tab.close();
+  });
 });

@@ -18,6 +18,7 @@ import { History } from "./state/history";
 import { addUnitTool } from "./tools/unit_tool";
 import { addTools } from "./tools/tools";
 import { help, menus } from "./menus";
+import { EmptyHint } from "./panels/empty_hint";
 import { ObjectPanel } from "./panels/object_panel";
 import { ExportDialog } from "./export/export_dialog";
 import { PanelSwitch } from "./panels/panel_switch";
@@ -50,6 +51,7 @@ class Viewer implements ViewerContext {
   private readonly objectList: ObjectListPanel;
   private readonly shown: ScenePanel;
   private readonly objectPanel: ObjectPanel;
+  private readonly emptyHint: EmptyHint;
 
   constructor(
     readonly api: Api,
@@ -71,6 +73,7 @@ class Viewer implements ViewerContext {
     addSceneActions(this);
     this.shown = new ScenePanel(this);
     this.objectPanel = new ObjectPanel(this);
+    this.emptyHint = new EmptyHint(this);
     addTools(this);
     addSelectionBrackets(this);
     addThemeAction(this);
@@ -78,7 +81,7 @@ class Viewer implements ViewerContext {
     const side = html("div", { class: "side" }, this.objectList.element);
     const inspector = html("div", { class: "inspector" }, this.shown.element, this.objectPanel.element);
     this.overlay.prepend(this.viewport.canvas, menus(this.actions));
-    this.overlay.append(this.message, tour.element);
+    this.overlay.append(this.emptyHint.element, this.message, tour.element);
     const dialogs = [new ExportDialog(this).element, help(this.actions)];
     main.append(this.panels.element, side, this.overlay, inspector, this.axis.element, ...dialogs);
     this.names.onChange(() => this.renewTitles());
@@ -134,6 +137,7 @@ class Viewer implements ViewerContext {
     this.objectList.show(state, before);
     this.shown.show(state);
     this.objectPanel.show(state, dragging);
+    this.emptyHint.show(state);
     this.scene.show(state, before, dragging);
     if (state.view && state.view !== before.view) this.viewport.rig.view = state.view; // all digits: same pixels by link
   }

@@ -56,7 +56,7 @@ export class ItemsTab {
   private reveal(element: HTMLElement): void {
     const [own, panel] = [element.getBoundingClientRect(), this.panel.getBoundingClientRect()];
     if (getComputedStyle(this.panel).overflowY !== "auto") return;
-    if (own.top < panel.top) this.panel.scrollTop -= panel.top - own.top + MARGIN;
+    if (own.top < panel.top || own.height > panel.height) this.panel.scrollTop -= panel.top - own.top + MARGIN;
     else if (own.bottom > panel.bottom) this.panel.scrollTop += own.bottom - panel.bottom + MARGIN;
   }
 
