@@ -137,4 +137,28 @@ describe.skipIf(!canServe)("the panels of the viewer", () => {
     expect(problems).toEqual([]);
     await tab.close();
   });
+
+  it("has menus in sections with headings and icons", async () => {
+    const { tab, problems } = await served.open();
+    const names: string[] = [];
+    for (const summary of await tab.locator(".menus summary").all()) {
+      await summary.click();
+      const box = tab.locator(".menus details[open] .box");
+      const buttons = box.getByRole("button");
+      await buttons.first().waitFor();
+      names.push(...(await buttons.locator("span").allTextContents()));
+      expect(await buttons.locator('svg[aria-hidden="true"]').count()).toBe(await buttons.count());
+      const headings = await box.locator("p").allTextContents();
+      expect(headings).not.toContain("Other"); // each action has its place
+      for (const heading of headings) expect(await box.getByRole("list", { name: heading, exact: true }).count()).toBe(1);
+      await tab.keyboard.press("Escape");
+    }
+    const some = ["Fit to view", "Orthographic", "Volume rendering", "Export...", "Pick object at crosshair"];
+    expect(names).toEqual(expect.arrayContaining(some));
+    expect(names.filter((name) => name.startsWith("Orbit"))).toEqual([]); // arrow keys
+    await tab.keyboard.press("?");
+    expect(await tab.locator(".help dd").allTextContents()).toContain("Orbit left");
+    expect(problems).toEqual([]);
+    await tab.close();
+  });
 });
