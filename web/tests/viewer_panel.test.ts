@@ -161,4 +161,49 @@ describe.skipIf(!canServe)("the panels of the viewer", () => {
     expect(problems).toEqual([]);
     await tab.close();
   });
+
+  it("finds objects by number, reference, isovalue and name; arrows, Enter and Escape work", async () => {
+    const { tab, problems } = await served.open();
+    const said = tab.locator(".objects > p[role=status]");
+    const all = await said.innerText();
+    const titles = (): Promise<string[]> => tab.locator(".items .card > button b").allTextContents();
+    const type = async (text: string): Promise<void> => {
+      await tab.keyboard.press("Control+a");
+      await tab.keyboard.type(text);
+    };
+    const table = JSON.parse(served.isoatlas("objects", served.store, "--json")) as { objects: { number: number; best_tau: number }[] };
+    const third = table.objects.find(({ number }) => number === 3)!;
+    await tab.keyboard.press("/");
+    for (const [text, found] of [
+      ["c1", "Cavity 1"],
+      [third.best_tau.toFixed(1), "Object 3"],
+      [`@${third.best_tau.toFixed(1)}`, "Object 3"],
+      ["whole", "Whole isosurface"],
+    ] as const) {
+      await type(text);
+      await expect.poll(titles).toEqual([found]);
+    }
+    await type("c1");
+    await tab.keyboard.press("Enter");
+    expect(await title(tab)).toBe("Cavity 1");
+    await type("nonesuch");
+    await expect.poll(() => said.innerText()).toMatch(/^none: .*nonesuch/);
+    expect(await titles()).toEqual([]);
+    await tab.keyboard.press("Escape");
+    await expect.poll(() => said.innerText()).toBe(all);
+    await tab.keyboard.type("object");
+    await expect.poll(() => said.innerText()).toMatch(/^found: /);
+    const focused = (): Promise<string | null | undefined> => tab.evaluate(() => document.activeElement?.querySelector("b")?.textContent);
+    const [first, second] = await titles();
+    await tab.keyboard.press("ArrowDown");
+    expect(await focused()).toBe(first);
+    await tab.keyboard.press("ArrowDown");
+    expect(await focused()).toBe(second);
+    await tab.keyboard.press("Enter");
+    expect(await title(tab)).toBe(second);
+    await tab.keyboard.press("Escape");
+    expect(await tab.evaluate(() => document.activeElement?.getAttribute("type"))).toBe("search");
+    expect(problems).toEqual([]);
+    await tab.close();
+  });
 });

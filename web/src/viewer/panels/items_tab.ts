@@ -21,11 +21,11 @@ export class ItemsTab {
     private readonly make: (number: number) => Item,
   ) {}
 
-  fill({ objects, cards, background, cavities, others }: SearchResult): void {
+  fill({ objects, cards, background, cavities, others, everything }: SearchResult): void {
     const isOpen = cards.length === 0 || this.panel.querySelector("details.field")?.hasAttribute("open") === true;
     const field = this.kind === "rows" || background.length === 0 ? [] : [foldedField(this.listOf(background), isOpen)];
     this.panel.replaceChildren(
-      this.listOf([...(this.kind === "rows" ? objects : cards), EVERYTHING]),
+      this.listOf([...(this.kind === "rows" ? objects : cards), ...(everything ? [EVERYTHING] : [])]),
       ...(others.length > 0 ? [html("h2", {}, "In the scene, but not listed"), this.listOf(others)] : []),
       ...(cavities.length > 0 ? [html("h2", {}, "Cavities"), this.listOf(cavities)] : []),
       ...field,
