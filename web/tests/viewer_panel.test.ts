@@ -119,6 +119,9 @@ describe.skipIf(!canServe)("the panels of the viewer", () => {
     await hint.getByRole("button", { name: "Undo" }).click();
     expect(await title(tab)).toBe(before);
     await tab.keyboard.press("Delete");
+    await tab.keyboard.press("v"); // the volume itself is shown
+    await expect.poll(() => hint.isVisible()).toBe(false);
+    await tab.keyboard.press("v");
     await hint.getByRole("button", { name: "Show the first object" }).click();
     expect(await hint.isVisible()).toBe(false);
     await expect.poll(() => badge.textContent()).toContain("this object");

@@ -3,7 +3,9 @@ import { firstToShow } from "../../shared/cards";
 import { html } from "../../shared/dom";
 import type { ViewerContext } from "../context/viewer_context";
 import { EVERYTHING } from "../api/entries";
+import { PLANES } from "../state/slice_state";
 import { changeAll, type State } from "../state/state";
+import { VOLUME_DENSITY } from "../state/volume_state";
 
 export class EmptyHint {
   private readonly title = html("h2", {});
@@ -17,8 +19,10 @@ export class EmptyHint {
     this.element = html("section", { class: "empty", "aria-label": "nothing is shown", hidden: true }, ...parts);
   }
 
-  show({ shown }: State): void {
-    const kind = shown.length === 0 ? "empty" : shown.every(({ visible }) => !visible) ? "hidden" : "";
+  show(state: State): void {
+    const { shown } = state;
+    const isSeen = VOLUME_DENSITY.of(state) !== null || PLANES.of(state); // the volume itself
+    const kind = isSeen ? "" : reasonOf(shown);
     this.element.hidden = kind === "";
     const undoes = this.context.history.undoes;
     if (kind === "" || kind + undoes === this.kind) return;
@@ -53,4 +57,9 @@ export class EmptyHint {
   private button(name: string, click: () => void, title?: string): HTMLElement {
     return html("button", { type: "button", title, click }, name);
   }
+}
+
+function reasonOf(shown: State["shown"]): "" | "empty" | "hidden" {
+  if (shown.length === 0) return "empty";
+  return shown.every(({ visible }) => !visible) ? "hidden" : "";
 }
