@@ -167,6 +167,8 @@ describe("the search", () => {
     expect(found("v203")).toEqual([7]);
     expect(found("203")).toEqual([]);
     expect(found("nothing of this")).toEqual([]);
+    expect(find(volume, all, [], { text: "nothing of this", order: "rank" }).everything).toBe(false);
+    expect(find(volume, all, [], { text: "c1", order: "rank" }).cavities).toEqual([3]);
   });
   it("sorts, with cavities and other objects of the scene apart", () => {
     expect(found("", "isovalue").slice(0, 2)).toEqual([1, 9]);
@@ -177,6 +179,7 @@ describe("the search", () => {
       background: [],
       cavities: [3],
       others: [8],
+      everything: true,
     });
   });
   it("has one card for what looks the same, but for what is in the scene or found, and keeps the scanned field apart", () => {

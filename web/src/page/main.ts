@@ -32,7 +32,8 @@ function head(page: Page): HTMLElement {
   const size = `${volume.size.join(" × ")} samples${volume.valueUnit ? `, values in ${volume.valueUnit}` : ""}. `;
   const reload = html("button", { type: "button" }, "Reload");
   reload.addEventListener("click", () => location.reload());
-  const unfinished = html("p", { class: "assumed" }, "Still pictures only: isoatlas was drawing the rest when this page was opened. ", reload);
+  const words = "Still pictures only: isoatlas was drawing the rest when this page was opened. ";
+  const unfinished = html("p", { class: "assumed" }, words, reload);
   return html("header", {}, html("h1", {}, volume.name), html("p", {}, size, link), page.complete === false ? unfinished : null);
 }
 

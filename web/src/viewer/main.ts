@@ -13,13 +13,16 @@ import { onClick, placeOn } from "./context/clicks";
 import type { ViewerContext } from "./context/viewer_context";
 import { Editor } from "./context/editor";
 import { ObjectNames } from "./api/object_names";
+import { Pictures } from "./api/pictures";
 import { History } from "./state/history";
 import { addUnitTool } from "./tools/unit_tool";
 import { addTools } from "./tools/tools";
 import { help, menus } from "./menus";
+import { EmptyHint } from "./panels/empty_hint";
 import { ObjectPanel } from "./panels/object_panel";
 import { ExportDialog } from "./export/export_dialog";
 import { readScene } from "./export/scene_file";
+import { PanelSwitch } from "./panels/panel_switch";
 import { Scene } from "./scene/scene";
 import { addSceneActions } from "./panels/scene_actions";
 import { ScenePanel } from "./panels/scene_panel";
@@ -32,6 +35,7 @@ import { Tour } from "./tour";
 import { ownKey, waitForPage } from "./waiting";
 import "./viewer.css";
 import "./panels/scene.css";
+import "./panels/panel_switch.css";
 
 class Viewer implements ViewerContext {
   readonly history: History;
@@ -44,11 +48,14 @@ class Viewer implements ViewerContext {
   readonly editor: Editor;
   readonly scene: Scene;
   readonly names: ObjectNames;
+  readonly pictures: Pictures;
+  readonly panels: PanelSwitch;
   private readonly message = html("p", { class: "message", role: "status" });
   private readonly axis: IsovaluePanel;
   private readonly objectList: ObjectListPanel;
   private readonly shown: ScenePanel;
   private readonly objectPanel: ObjectPanel;
+  private readonly emptyHint: EmptyHint;
 
   constructor(
     readonly api: Api,
@@ -61,6 +68,8 @@ class Viewer implements ViewerContext {
     this.editor = new Editor(page, this.history);
     this.scene = new Scene(this);
     this.names = new ObjectNames(api, page);
+    this.pictures = new Pictures(api, page);
+    this.panels = new PanelSwitch(main);
     addUnitTool(this, () => this.renewTitles()); // first: all others make text with lengths
     this.objectList = new ObjectListPanel(this);
     addIsovalueSteps(this);
@@ -68,6 +77,7 @@ class Viewer implements ViewerContext {
     addSceneActions(this);
     this.shown = new ScenePanel(this);
     this.objectPanel = new ObjectPanel(this);
+    this.emptyHint = new EmptyHint(this);
     addTools(this);
     addSelectionBrackets(this);
     addThemeAction(this);
@@ -75,8 +85,9 @@ class Viewer implements ViewerContext {
     const side = html("div", { class: "side" }, this.objectList.element);
     const inspector = html("div", { class: "inspector" }, this.shown.element, this.objectPanel.element);
     this.overlay.prepend(this.viewport.canvas, menus(this.actions));
-    this.overlay.append(this.message, tour.element);
-    main.append(side, this.overlay, inspector, this.axis.element, new ExportDialog(this).element, help(this.actions));
+    this.overlay.append(this.emptyHint.element, this.message, tour.element);
+    const dialogs = [new ExportDialog(this).element, help(this.actions)];
+    main.append(this.panels.element, side, this.overlay, inspector, this.axis.element, ...dialogs);
     this.names.onChange(() => this.renewTitles());
     this.history.listen((state, before, dragging) => this.show(state, before, dragging));
     this.actions.listen(document);
@@ -139,6 +150,7 @@ class Viewer implements ViewerContext {
     this.objectList.show(state, before);
     this.shown.show(state);
     this.objectPanel.show(state, dragging);
+    this.emptyHint.show(state);
     this.scene.show(state, before, dragging);
     if (state.view && state.view !== before.view) this.viewport.rig.view = state.view; // all digits: same pixels by link
   }

@@ -2,6 +2,7 @@
 import { html } from "../shared/dom";
 import type { Action, Actions, Group } from "./context/actions";
 import { markBlocked } from "./context/needs_server";
+import { icon, placed, type Placed } from "./menu_layout";
 
 const GROUPS: Group[] = ["Objects", "Isovalue", "Scene", "View", "Tools", "Export", "Help"];
 const SIGNS: Record<string, string> = { ArrowLeft: "←", ArrowRight: "→", ArrowUp: "↑", ArrowDown: "↓", " ": "space" };
@@ -21,11 +22,11 @@ export function menus(actions: Actions): HTMLElement {
   const bar = html("div", { class: "menus", role: "toolbar", "aria-label": "menus" });
   const close = (): void => bar.querySelectorAll("details[open]").forEach((menu) => menu.removeAttribute("open"));
   for (const group of GROUPS) {
-    const list = html("ul", {});
+    const list = html("div", { class: "box" });
     const menu = html("details", { name: "menu" }, html("summary", {}, group), list);
     menu.addEventListener("toggle", () => {
       const own = actions.all.filter((action) => action.group === group);
-      list.replaceChildren(...own.map((action) => html("li", {}, buttonOf(actions, action, close))));
+      list.replaceChildren(...placed(group, own).flatMap((section, at) => sectionOf(actions, section, `menu-${group}-${at}`, close)));
     });
     bar.append(menu);
   }
@@ -40,6 +41,12 @@ export function menus(actions: Actions): HTMLElement {
   return bar;
 }
 
+/** Its heading and its actions. */
+function sectionOf(all: Actions, { title, actions }: Placed<Action>, id: string, done: () => void): HTMLElement[] {
+  const items = actions.map(([action, name]) => html("li", {}, buttonOf(all, action, icon(name), done)));
+  return [html("p", { id }, title), html("ul", { "aria-labelledby": id }, ...items)];
+}
+
 /** Moves the focus in an open menu, cyclically. */
 function walk(event: KeyboardEvent, open: HTMLElement | null): void {
   if (!open) return;
@@ -51,12 +58,13 @@ function walk(event: KeyboardEvent, open: HTMLElement | null): void {
   event.stopPropagation(); // otherwise the camera turns
 }
 
-function buttonOf(actions: Actions, action: Action, done: () => void): HTMLElement {
+function buttonOf(actions: Actions, action: Action, sign: SVGSVGElement, done: () => void): HTMLElement {
   const run = (): void => {
     done();
     actions.run(action);
   };
-  const button = html("button", { type: "button", click: run }, html("span", {}, action.name), html("kbd", {}, signsOf(action)));
+  const parts = [sign, html("span", {}, action.name), html("kbd", {}, signsOf(action))];
+  const button = html("button", { type: "button", click: run }, ...parts);
   if (action.isOn) button.setAttribute("aria-pressed", String(action.isOn()));
   markBlocked(button, actions.whyBlocked(action));
   return button;

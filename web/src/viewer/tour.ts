@@ -1,11 +1,14 @@
 // Introduction in four steps, shown once. It does not block the page; Escape closes it, and the menu opens it again.
 import { html } from "../shared/dom";
+import type { PanelName } from "./panels/panel_switch";
 import type { ViewerContext } from "./context/viewer_context";
 import { recall, remember } from "./state/local_storage";
 
 interface Step {
   /** element it describes */
   selector: string;
+  /** that contains it */
+  panel?: PanelName;
   title: string;
   text: string;
 }
@@ -13,6 +16,7 @@ interface Step {
 const STEPS: Step[] = [
   {
     selector: ".side",
+    panel: "list",
     title: "Objects, not thresholds",
     text:
       "The significant objects of the volume, the most important first, each at its best isovalue." +
@@ -27,6 +31,7 @@ const STEPS: Step[] = [
   },
   {
     selector: ".inspector",
+    panel: "scene",
     title: "Scene and selected object",
     text:
       "Hide an object, give it another colour, make it transparent, or make the others ghosts." +
@@ -49,7 +54,8 @@ export class Tour {
   private readonly next = html("button", { type: "button", class: "next", click: () => this.go(this.at + 1) });
   private at = 0;
 
-  constructor({ actions }: ViewerContext) {
+  constructor(private readonly context: ViewerContext) {
+    const { actions } = context;
     const label = "Close the introduction";
     const close = html("button", { type: "button", class: "plain", "aria-label": label, click: () => this.close() }, "×");
     this.element.append(html("header", {}, this.title, close), this.text, html("div", { class: "line" }, this.back, this.next));
@@ -75,6 +81,7 @@ export class Tour {
     this.text.textContent = step.text;
     this.back.disabled = to === 0;
     this.next.textContent = to + 1 === STEPS.length ? "Done" : `Next (${to + 1} of ${STEPS.length})`;
+    if (step.panel) this.context.panels.open(step.panel);
     this.point(step.selector);
   }
 

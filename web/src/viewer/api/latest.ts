@@ -13,6 +13,12 @@ export class Latest<T> {
     if (!this.busy) void this.run();
   }
 
+  /** The next request is made in any case. */
+  forget(): void {
+    this.next = null;
+    this.started = "";
+  }
+
   private async run(): Promise<void> {
     this.busy = true;
     while (this.next) {

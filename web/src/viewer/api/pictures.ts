@@ -3,7 +3,7 @@
 import { html } from "../../shared/dom";
 import { describe } from "../../shared/names";
 import type { Page, Picture } from "../../shared/page";
-import { turntable } from "../../shared/turntable";
+import { thumbnail, turntable } from "../../shared/turntable";
 import { ConnectionError, isSuperseded, type Api } from "./api";
 import { EVERYTHING } from "./entries";
 
@@ -13,6 +13,8 @@ interface Place {
   number: number;
   element: HTMLElement;
   frames: number;
+  /** a decorative still image */
+  isSmall: boolean;
 }
 
 export class Pictures {
@@ -21,6 +23,8 @@ export class Pictures {
   /** without a connection */
   private readonly missed = new Set<Place>();
   private readonly places = new Map<Element, Place>();
+  /** by the number of the object: the panel of the selected object shows them again and again */
+  private readonly thumbnails = new Map<number, HTMLElement>();
   private readonly sight = new IntersectionObserver((all) => all.forEach((one) => this.onIntersection(one)), { rootMargin: "120px" });
 
   constructor(
@@ -38,11 +42,26 @@ export class Pictures {
   placeOf(number: number): HTMLElement {
     const element = html("div", { class: "picture" });
     if (number === EVERYTHING) return element;
-    const place: Place = { number, element, frames: 0 };
-    this.places.set(element, place);
-    this.sight.observe(element);
+    const place = this.watch(number, element, false);
     for (const event of ["pointermove", "focusin"]) element.addEventListener(event, () => place.frames === 1 && this.request(place, true));
     return element;
+  }
+
+  /** A small still image beside the words for an object: one element for each object. */
+  thumbnailOf(number: number): HTMLElement {
+    const known = this.thumbnails.get(number);
+    if (known) return known;
+    const element = html("span", { class: "thumb", "aria-hidden": "true" });
+    this.thumbnails.set(number, element);
+    if (number !== EVERYTHING) this.watch(number, element, true);
+    return element;
+  }
+
+  private watch(number: number, element: HTMLElement, isSmall: boolean): Place {
+    const place: Place = { number, element, frames: 0, isSmall };
+    this.places.set(element, place);
+    this.sight.observe(element);
+    return place;
   }
 
   private onIntersection({ isIntersecting, target }: IntersectionObserverEntry): void {
@@ -83,11 +102,12 @@ export class Pictures {
       else if (error instanceof ConnectionError) {
         place.frames = frames === 1 ? 0 : 1;
         this.missed.add(place);
-      } else place.element.textContent = "no picture"; // the object can be shown nevertheless
+      } else if (!place.isSmall) place.element.textContent = "no picture"; // the object can be shown nevertheless
     }
   }
 
-  private put({ element, number }: Place, picture: Picture | null): void {
+  private put({ element, number, isSmall }: Place, picture: Picture | null): void {
+    if (isSmall) return element.replaceChildren(...(picture ? [thumbnail(picture)] : []));
     if (picture === null) return element.replaceChildren("no picture");
     const had = element.contains(document.activeElement);
     const view = turntable(picture, `Picture of ${describe(this.page, number)}`);

@@ -4,6 +4,8 @@ import type { Actions } from "./actions";
 import type { Api } from "../api/api";
 import type { Catalogue } from "../api/catalogue";
 import type { ObjectNames } from "../api/object_names";
+import type { Pictures } from "../api/pictures";
+import type { PanelSwitch } from "../panels/panel_switch";
 import type { Editor } from "./editor";
 import type { Scene } from "../scene/scene";
 import type { Viewport } from "../scene/viewport";
@@ -19,6 +21,8 @@ export interface ViewerContext {
   readonly actions: Actions;
   readonly editor: Editor;
   readonly names: ObjectNames;
+  readonly pictures: Pictures;
+  readonly panels: PanelSwitch;
   readonly scene: Scene;
   /** element over the canvas, for overlays */
   readonly overlay: HTMLElement;

@@ -69,14 +69,23 @@ export class IsovaluePanel {
 
   show(state: State): void {
     const shown = state.shown[state.selected];
-    this.element.classList.toggle("idle", !shown);
+    for (const control of [this.box, this.slider, this.back, this.forth]) control.disabled = !shown;
     this.step.value = String(deltaOf(this.context.page, state));
     this.plot.show(state);
-    if (!shown) return;
+    if (!shown) return this.clear();
     this.box.value = String(Number(shown.tau.toPrecision(7)));
     this.slider.value = String(Math.round(this.axis.x(shown.tau)));
     this.slider.setAttribute("aria-valuetext", value(shown.tau));
     this.estimator.request(shown, `${shown.entry} ${shown.tau} ${this.context.api.connection.count}`);
+  }
+
+  /** Nothing is selected: there is no isovalue to tell, and nothing to count. */
+  private clear(): void {
+    this.player.stop();
+    this.box.value = "";
+    this.badge.textContent = "";
+    this.slider.removeAttribute("aria-valuetext");
+    this.estimator.forget();
   }
 
   private controls(): HTMLElement {
@@ -86,18 +95,18 @@ export class IsovaluePanel {
       ...SPEEDS.map((n) => html("option", { value: n, selected: n === this.player.speed }, `${n} steps/s`)),
     );
     speed.addEventListener("change", () => (this.player.speed = Number(speed.value)));
-    return html("span", { class: "play", role: "group", "aria-label": "play" }, this.back, this.forth, speed);
+    return html("span", { class: "play", role: "group", "aria-label": "play" }, html("span", {}, "play"), this.back, this.forth, speed);
   }
 
   private showDirection(): void {
-    for (const [button, direction, sign, word] of [
-      [this.back, -1, "◀", "play downwards"],
-      [this.forth, 1, "▶", "play upwards"],
+    for (const [button, direction, sign, word, what] of [
+      [this.back, -1, "◀", "play downwards", "lower the isovalue step by step (P)"],
+      [this.forth, 1, "▶", "play upwards", "raise the isovalue step by step (p)"],
     ] as const) {
       const plays = this.player.direction === direction;
       button.textContent = plays ? "❚❚" : sign;
       button.setAttribute("aria-label", plays ? "pause" : word);
-      button.title = button.getAttribute("aria-label") ?? "";
+      button.title = plays ? "pause" : `${word}: ${what}`;
     }
   }
 
@@ -111,7 +120,8 @@ export class IsovaluePanel {
 
   private async estimate(shown: Shown): Promise<void> {
     try {
-      this.badge.textContent = await badgeOf(this.context, shown);
+      const text = await badgeOf(this.context, shown);
+      if (this.context.editor.selected) this.badge.textContent = text;
     } catch (error) {
       this.context.reportError(error);
     }

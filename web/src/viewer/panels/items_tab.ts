@@ -21,11 +21,11 @@ export class ItemsTab {
     private readonly make: (number: number) => Item,
   ) {}
 
-  fill({ objects, cards, background, cavities, others }: SearchResult): void {
+  fill({ objects, cards, background, cavities, others, everything }: SearchResult): void {
     const isOpen = cards.length === 0 || this.panel.querySelector("details.field")?.hasAttribute("open") === true;
     const field = this.kind === "rows" || background.length === 0 ? [] : [foldedField(this.listOf(background), isOpen)];
     this.panel.replaceChildren(
-      this.listOf([...(this.kind === "rows" ? objects : cards), EVERYTHING]),
+      this.listOf([...(this.kind === "rows" ? objects : cards), ...(everything ? [EVERYTHING] : [])]),
       ...(others.length > 0 ? [html("h2", {}, "In the scene, but not listed"), this.listOf(others)] : []),
       ...(cavities.length > 0 ? [html("h2", {}, "Cavities"), this.listOf(cavities)] : []),
       ...field,
@@ -56,7 +56,7 @@ export class ItemsTab {
   private reveal(element: HTMLElement): void {
     const [own, panel] = [element.getBoundingClientRect(), this.panel.getBoundingClientRect()];
     if (getComputedStyle(this.panel).overflowY !== "auto") return;
-    if (own.top < panel.top) this.panel.scrollTop -= panel.top - own.top + MARGIN;
+    if (own.top < panel.top || own.height > panel.height) this.panel.scrollTop -= panel.top - own.top + MARGIN;
     else if (own.bottom > panel.bottom) this.panel.scrollTop += own.bottom - panel.bottom + MARGIN;
   }
 

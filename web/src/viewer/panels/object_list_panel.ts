@@ -6,20 +6,24 @@ import { count, plural } from "../../shared/format";
 import { commandList } from "../../shared/commands";
 import { ANY, CHOICE, commandOf, isSelection, selectionOptions, TAB, type Choice, type TabName } from "../state/selection";
 import { selectedOf, type ViewerContext } from "../context/viewer_context";
-import { find, NOTHING_FOUND, type SearchResult } from "./object_search";
+import { addSearchKeys } from "./search_keys";
+import { allOf, find, NOTHING_FOUND, type SearchResult } from "./object_search";
 import { card, row } from "./items";
 import { ItemsTab } from "./items_tab";
-import { Pictures } from "../api/pictures";
 import { ScatterTab } from "./scatter_tab";
 import type { State } from "../state/state";
 import { Tabs } from "./tabs";
 import { TreeTab } from "./tree_tab";
 import "./object_list.css";
 
-const FIND = "find objects by name, number or reason";
+const FIND = "find objects by name, number, reference or isovalue";
 
 function orderOption(name: string): HTMLElement {
   return html("option", { value: name }, name === "rank" ? "by importance" : `by ${name}`);
+}
+
+function noneWords(text: string): string {
+  return `none: “${text}” is no name, number, reference (3, c1) or isovalue of a listed object`;
 }
 
 export class ObjectListPanel {
@@ -29,7 +33,7 @@ export class ObjectListPanel {
   private readonly list: ItemsTab;
   private readonly tree: TreeTab;
   private readonly scatter: ScatterTab;
-  private readonly text = html("input", { type: "search", placeholder: "find: 3, cavity, sharp", "aria-label": FIND });
+  private readonly text = html("input", { type: "search", placeholder: "find: 3, c1, 127, name", "aria-label": FIND });
   private readonly order = html("select", { "aria-label": "order" }, ...orders.map(([name]) => orderOption(name)));
   private readonly words = html("p", { role: "status" });
   private readonly command = html("div", { class: "same-list" });
@@ -43,8 +47,7 @@ export class ObjectListPanel {
   private readonly stale = new Set<TabName>(["cards", "list", "tree"]);
 
   constructor(private readonly context: ViewerContext) {
-    const { page, editor: selector, catalogue } = context;
-    const pictures = new Pictures(context.api, page);
+    const { page, editor: selector, catalogue, pictures } = context;
     this.cards = new ItemsTab("cards", (i) => card(page, i, selector, pictures));
     this.list = new ItemsTab("rows", (i) => row(page, i, selector));
     this.tree = new TreeTab(page, catalogue, selector);
@@ -62,7 +65,20 @@ export class ObjectListPanel {
     const head = [html("h1", {}, page.volume.name), this.words, this.hidden(), this.finder];
     this.element = html("nav", { class: "objects", "aria-label": "objects" }, ...head, this.tabs.element);
     for (const input of [this.text, this.order]) input.addEventListener("input", () => this.refresh(context.history.now));
+    const [first, changed] = [() => this.showFirst(), () => this.refresh(context.history.now)];
+    addSearchKeys(this.text, this.tabs.element, () => this.focusable(), first, changed);
     this.addActions();
+  }
+
+  /** Elements of the open tab that stand for what is found. */
+  private focusable(): HTMLElement[] {
+    const selector = ".items .card > button, .items .rows button, .tree [role=treeitem]";
+    return [...this.tabs.element.querySelectorAll<HTMLElement>(selector)].filter((element) => element.checkVisibility());
+  }
+
+  private showFirst(): void {
+    const [first] = this.text.value.trim() === "" ? [] : allOf(this.found);
+    if (first !== undefined) this.context.editor.isolate(first);
   }
 
   /** All objects are loaded, not only those of the page. */
@@ -120,9 +136,11 @@ export class ObjectListPanel {
   private showCount(choice: Choice | null): void {
     const { page } = this.context;
     const words = [this.countWords(choice)];
-    const { objects, cavities, others } = this.found;
+    const { cavities } = this.found;
+    const found = allOf(this.found).length;
+    const text = this.text.value.trim();
     if (cavities.length > 0) words.push(`and ${plural(this.context.catalogue.objectsOf(cavities), "cavity", "cavities")}`);
-    if (this.text.value.trim() !== "") words.push(`found: ${count(objects.length + cavities.length + others.length)}`);
+    if (text !== "") words.splice(0, words.length, found > 0 ? `found: ${count(found)}` : noneWords(text));
     if (this.words.textContent !== words.join(", ")) this.words.textContent = words.join(", "); // live regions repeat unchanged text
     if (!this.context.catalogue.isLoaded) return;
     const { line, same } = commandOf(choice, this.context.catalogue.source, page.found.objects.significant, page.volume.unit !== null);
@@ -186,13 +204,14 @@ export class ObjectListPanel {
   }
 
   private focusTab(tab: TabName): void {
+    this.context.panels.open("list");
     this.open(tab);
     document.getElementById(`tab-${tab}`)?.focus();
   }
 
   /** Isolates the next or previous object of the list. */
   private step(by: number): void {
-    const numbers = [...this.found.objects, ...this.found.others, ...this.found.cavities];
+    const numbers = allOf(this.found);
     const at = numbers.indexOf(selectedOf(this.context.history.now)?.entry ?? NaN);
     const next = numbers[at < 0 ? 0 : (at + by + numbers.length) % numbers.length];
     if (next !== undefined) this.context.editor.isolate(next);
@@ -204,13 +223,14 @@ export class ObjectListPanel {
       { group: "Objects", name: "List", keys: ["2"], run: () => this.focusTab("list") },
       { group: "Objects", name: "Tree", keys: ["3", "t"], run: () => this.focusTab("tree") },
       { group: "Objects", name: "Filter by contrast and size", keys: ["4"], run: () => this.focusTab("scatter") },
-      { group: "Objects", name: "Find by name, number or reason", keys: ["/"], run: () => this.find() },
+      { group: "Objects", name: "Find by name, number or isovalue", keys: ["/"], run: () => this.find() },
       { group: "Objects", name: "Isolate next object", keys: ["n"], run: () => this.step(1) },
       { group: "Objects", name: "Isolate previous object", keys: ["N"], run: () => this.step(-1) },
     );
   }
 
   private find(): void {
+    this.context.panels.open("list");
     if (TAB.of(this.context.history.now) === "scatter") this.open("cards");
     this.text.focus();
     this.text.select();

@@ -32,6 +32,7 @@ export class TitleEditor {
     if (problem !== "") return this.context.notify(`a name ${problem}`);
     if (!shown) return this.context.notify("select an object first");
     if (!this.context.names.canName(shown.entry)) return this.context.notify("only objects with a card have names");
+    this.context.panels.open("scene");
     this.entry = shown.entry;
     this.box.value = entryOf(this.context.page, shown.entry).name ?? "";
     this.box.placeholder = titleOf(this.context.page, shown.entry);
