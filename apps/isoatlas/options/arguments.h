@@ -81,7 +81,7 @@ struct Arguments {
     std::uint64_t seed = 1;
 
     // Server
-    int port = 0;  ///< 0: that of the links of the store, or any
+    int port = 0;       ///< 0: that of the links of the store, or any
     std::string scene;  ///< file; empty: none
     bool no_browser = false, read_only = false, new_link = false;
 
