@@ -162,7 +162,10 @@ describe.skipIf(!browserFile || !existsSync(bundled))("a page that turns", () =>
       interpolant: "trilinear",
       background: 10,
       labels: [
-        { label: 3, name: "Liver", voxels: 9, measure: 9, components: 1, tunnels: 0, cavities: 0, colour: "#aa8800", picture: null, mesh, commands: [] },
+        {
+          ...{ label: 3, name: "Liver", voxels: 9, measure: 9, components: 1, tunnels: 0, cavities: 0 },
+          ...{ colour: "#aa8800", picture: null, mesh, commands: [] },
+        },
       ],
     };
     const { tab, problems } = await open(labels);
