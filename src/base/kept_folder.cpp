@@ -5,28 +5,21 @@
 #include <unistd.h>
 
 #include <cerrno>
-#include <cstdlib>
 #include <cstring>
 
+#include "base/own_files.h"
 #include "isoatlas/error.h"
 
 namespace isoatlas {
 namespace {
 
-constexpr mode_t kOwnFolder = 0700, kOwnFile = 0600, kOthers = 077;
 constexpr std::size_t kMost = 16384;  ///< bytes of a file
 
-[[noreturn]] void refuse(const std::string& path, const std::string& what) {
+[[noreturn]] void refuse_kept(const std::string& path, const std::string& what) {
     throw Error(ErrorKind::resource, {.where = path, .what = what, .next = "set XDG_STATE_HOME to a folder of yours"});
 }
 
 std::string reason() { return std::strerror(errno); }
-
-/// Empty: not set, or not an absolute path.
-std::string folder_in(const char* variable) {
-    const char* folder = std::getenv(variable);
-    return folder != nullptr && *folder == '/' ? folder : std::string();
-}
 
 /// The folder for states of this user, which its parents are made for; empty: none.
 std::string state_folder() {
@@ -40,8 +33,6 @@ std::string state_folder() {
     return folder;
 }
 
-bool write_all(int file, const std::string& text) { return ::write(file, text.data(), text.size()) == static_cast<ssize_t>(text.size()); }
-
 /// Why an open file must not be used; empty: it may.
 std::string refusal_of(const struct stat& status) {
     if (!S_ISREG(status.st_mode)) return "is not a file";
@@ -52,11 +43,11 @@ std::string refusal_of(const struct stat& status) {
 }  // namespace
 
 KeptFolder::KeptFolder() : path_(state_folder()) {
-    if (path_.empty()) refuse("the folder for links", "is unknown: neither XDG_STATE_HOME nor HOME is set");
+    if (path_.empty()) refuse_kept("the folder for links", "is unknown: neither XDG_STATE_HOME nor HOME is set");
     path_ += "/isoatlas";
-    if (::mkdir(path_.c_str(), kOwnFolder) != 0 && errno != EEXIST) refuse(path_, "cannot be created: " + reason());
+    if (::mkdir(path_.c_str(), kOwnFolder) != 0 && errno != EEXIST) refuse_kept(path_, "cannot be created: " + reason());
     folder_ = ::open(path_.c_str(), O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);
-    if (folder_ < 0) refuse(path_, errno == ENOTDIR || errno == ELOOP ? "is not a folder" : "cannot be opened: " + reason());
+    if (folder_ < 0) refuse_kept(path_, errno == ENOTDIR || errno == ELOOP ? "is not a folder" : "cannot be opened: " + reason());
     struct stat status{};
     std::string what;
     if (::fstat(folder_, &status) != 0 || status.st_uid != ::geteuid())
@@ -65,7 +56,7 @@ KeptFolder::KeptFolder() : path_(state_folder()) {
         what = "is open to other users";
     if (what.empty()) return;
     (void)::close(folder_);
-    refuse(path_, what);
+    refuse_kept(path_, what);
 }
 
 KeptFolder::~KeptFolder() { (void)::close(folder_); }
@@ -93,12 +84,12 @@ void KeptFolder::write(const std::string& name, const std::string& text) const {
     const std::string made = name + "." + std::to_string(::getpid());
     (void)::unlinkat(folder_, made.c_str(), 0);
     const int file = ::openat(folder_, made.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, kOwnFile);
-    if (file < 0) refuse(path_of(name), "cannot be created: " + reason());
+    if (file < 0) refuse_kept(path_of(name), "cannot be created: " + reason());
     const bool good = write_all(file, text);
     if (::close(file) == 0 && good && ::renameat(folder_, made.c_str(), folder_, name.c_str()) == 0) return;
     const std::string why = reason();
     (void)::unlinkat(folder_, made.c_str(), 0);
-    refuse(path_of(name), "cannot be written: " + why);
+    refuse_kept(path_of(name), "cannot be written: " + why);
 }
 
 }  // namespace isoatlas

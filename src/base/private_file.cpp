@@ -6,24 +6,16 @@
 
 #include <array>
 #include <cerrno>
-#include <cstdlib>
 #include <cstring>
 
+#include "base/own_files.h"
 #include "isoatlas/error.h"
 
 namespace isoatlas {
 namespace {
 
-constexpr mode_t kOwnFolder = 0700, kOwnFile = 0600, kOthers = 077;
-
-[[noreturn]] void refuse(const std::string& path, const std::string& what) {
+[[noreturn]] void refuse_private(const std::string& path, const std::string& what) {
     throw Error(ErrorKind::resource, {.where = path, .what = what, .next = "set XDG_RUNTIME_DIR to a folder of yours"});
-}
-
-/// Without a trailing slash; empty: not set, or not an absolute path.
-std::string folder_in(const char* variable) {
-    const char* folder = std::getenv(variable);
-    return folder != nullptr && *folder == '/' ? folder : std::string();
 }
 
 /// The folder for files shared by programs of this user; empty: none.
@@ -43,30 +35,29 @@ std::string path_of(const std::string& name) {
 /// Ensures a folder of this user that no other user may enter.
 void make_own_folder(const std::string& path) {
     struct stat status{};
-    if (::mkdir(path.c_str(), kOwnFolder) != 0 && errno != EEXIST) refuse(path, std::string("cannot be created: ") + std::strerror(errno));
-    if (::lstat(path.c_str(), &status) != 0 || !S_ISDIR(status.st_mode)) refuse(path, "is not a folder");
-    if (status.st_uid != ::geteuid()) refuse(path, "belongs to another user");
-    if ((status.st_mode & kOthers) != 0 && ::chmod(path.c_str(), kOwnFolder) != 0) refuse(path, "is open to other users");
+    if (::mkdir(path.c_str(), kOwnFolder) != 0 && errno != EEXIST)
+        refuse_private(path, std::string("cannot be created: ") + std::strerror(errno));
+    if (::lstat(path.c_str(), &status) != 0 || !S_ISDIR(status.st_mode)) refuse_private(path, "is not a folder");
+    if (status.st_uid != ::geteuid()) refuse_private(path, "belongs to another user");
+    if ((status.st_mode & kOthers) != 0 && ::chmod(path.c_str(), kOwnFolder) != 0) refuse_private(path, "is open to other users");
 }
-
-bool write_all(int file, const std::string& text) { return ::write(file, text.data(), text.size()) == static_cast<ssize_t>(text.size()); }
 
 }  // namespace
 
 PrivateFile::PrivateFile(const std::string& name, const std::string& text) : path_(path_of(name)) {
-    if (path_.empty()) refuse(name, "has no folder: none of XDG_RUNTIME_DIR, XDG_CACHE_HOME and HOME is set");
+    if (path_.empty()) refuse_private(name, "has no folder: none of XDG_RUNTIME_DIR, XDG_CACHE_HOME and HOME is set");
     (void)::mkdir(user_folder().c_str(), kOwnFolder);  // ~/.cache of a new user
     make_own_folder(path_.substr(0, path_.rfind('/')));
     const std::string made = path_ + "." + std::to_string(::getpid());
     (void)::unlink(made.c_str());
     const int file = ::open(made.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, kOwnFile);
-    if (file < 0) refuse(made, std::string("cannot be created: ") + std::strerror(errno));
+    if (file < 0) refuse_private(made, std::string("cannot be created: ") + std::strerror(errno));
     struct stat status{};
     const bool good = write_all(file, text) && ::fstat(file, &status) == 0;
     if (::close(file) != 0 || !good || ::rename(made.c_str(), path_.c_str()) != 0) {
         const std::string reason = std::strerror(errno);
         (void)::unlink(made.c_str());
-        refuse(path_, "cannot be written: " + reason);
+        refuse_private(path_, "cannot be written: " + reason);
     }
     device_ = status.st_dev;
     inode_ = status.st_ino;
