@@ -5,7 +5,8 @@ target_compile_features(isoatlas_flags INTERFACE cxx_std_20)
 target_compile_options(isoatlas_flags INTERFACE
   -ffp-contract=off -fno-math-errno -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion
   $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict>  # g++ 12 warns wrongly about std::string operator+ (gcc bug 105651)
-  $<$<BOOL:${ISOATLAS_UNITY}>:-Wno-subobject-linkage>  # g++ takes what is included for a header
+  $<$<AND:$<BOOL:${ISOATLAS_UNITY}>,$<CXX_COMPILER_ID:GNU>>:-Wno-subobject-linkage>  # g++ takes what is included for a header
+  $<$<CXX_COMPILER_ID:Clang>:-Wno-deprecated-declarations>  # get_temporary_buffer in std::stable_sort of libstdc++ 12
   $<$<CONFIG:Debug>:-D_GLIBCXX_ASSERTIONS>)
 # g++ 12 loses the rounding in double -> float -> double when it vectorises straight-line code (tests/unit/output: precision notices).
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)

@@ -20,10 +20,10 @@ struct Progress {
 /// Defaults: all processors, no progress, never cancelled, the environment of the calling thread.
 /// The results of every function are the same bytes for any value of threads and slab_slices.
 struct Context {
-    int threads = 0;                                ///< 0: those of the environment, else one per processor
-    std::int64_t slab_slices = 0;                   ///< slices (last axis) per slab; 0: chosen for the thread count
-    std::function<void(const Progress&)> progress;  ///< called from the calling thread only; may be empty
-    std::function<bool()> cancelled;                ///< polled between slabs; true: Error{cancelled} is thrown
+    int threads = 0;                                  ///< 0: those of the environment, else one per processor
+    std::int64_t slab_slices = 0;                     ///< slices (last axis) per slab; 0: chosen for the thread count
+    std::function<void(const Progress&)> progress{};  ///< called from the calling thread only; may be empty
+    std::function<bool()> cancelled{};                ///< polled between slabs; true: Error{cancelled} is thrown
     /// Files, memory budget and threads of the call (environment.h); null: those of the calling thread.
     const Environment* environment = nullptr;
 

@@ -33,7 +33,7 @@ struct SpectrumInterval {
     double low, high;  ///< stored values
     LevelCounts all;   ///< of all objects
     LevelCounts
-        significant;  ///< of the objects that contain a significant one (ObjectTable): as many objects as significant branches are there
+        significant{};  ///< of the objects that contain a significant one (ObjectTable): as many objects as significant branches are there
 };
 
 /// The closed surface of an isovalue, as extract() makes it.

@@ -125,7 +125,7 @@ struct Mesh {
     Array<std::array<std::int64_t, 3>> triangles;
     Array<std::int64_t> object, contour;  ///< when the file has them; of write_surfaces(): the number of the surface, from 1
     std::string space = "unknown";        ///< of the points, when the file says it as write_surface() and 3D Slicer do
-    std::string unit;                     ///< of lengths; empty: the file does not say
+    std::string unit{};                   ///< of lengths; empty: the file does not say
 };
 [[nodiscard]] Mesh read_mesh(const std::string& path);
 

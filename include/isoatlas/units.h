@@ -25,9 +25,9 @@ namespace isoatlas {
 
 /// What the user knows better than the header. Unset members leave what the header says.
 struct Corrections {
-    std::optional<Vec3> spacing;  ///< positive, or negative to turn the axis around; steps become even
-    std::optional<Vec3> origin;   ///< of sample (0, 0, 0)
-    std::optional<std::string> unit, value_unit;
+    std::optional<Vec3> spacing{};  ///< positive, or negative to turn the axis around; steps become even
+    std::optional<Vec3> origin{};   ///< of sample (0, 0, 0)
+    std::optional<std::string> unit{}, value_unit{};
     [[nodiscard]] bool is_empty() const { return !spacing && !origin && !unit && !value_unit; }
     bool operator==(const Corrections&) const = default;
 };

@@ -51,7 +51,7 @@ struct Geometry {
     Mat3 direction{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};  ///< column a = unit vector of axis a
     std::array<std::vector<double>, 3> coordinates{};
     std::string space = "unknown";  ///< "LPS", "RAS", "unknown", ...: what the physical axes mean
-    std::string unit;               ///< of lengths: "mm", "µm", ... (unit_name() of units.h); empty when the file does not say
+    std::string unit{};             ///< of lengths: "mm", "µm", ... (unit_name() of units.h); empty when the file does not say
     bool operator==(const Geometry&) const = default;
 };
 [[nodiscard]] Vec3 to_physical(const Geometry& geometry, const Vec3& voxel_position);

@@ -12,12 +12,12 @@ namespace isoatlas {
 /// Resizes the array to count items of a value; its content is lost.
 template <class T>
 void fill_fresh(BigVector<T>& array, std::size_t count, const T& value) {
-    constexpr std::size_t kTogether = std::size_t{1} << 13;
+    constexpr std::size_t kBlock = std::size_t{1} << 13;
     array.clear();
     array.resize(count);  // writes nothing
     BudgetPoll memory;
-    for (std::size_t first = 0; first < count; first += kTogether) {
-        const std::size_t some = std::min(kTogether, count - first);
+    for (std::size_t first = 0; first < count; first += kBlock) {
+        const std::size_t some = std::min(kBlock, count - first);
         memory.step(some * sizeof(T));
         std::fill_n(array.data() + first, some, value);
     }

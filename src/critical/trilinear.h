@@ -23,8 +23,8 @@ std::array<Number, 8> trilinear_coefficients(const std::array<Number, 8>& v) {
 inline std::array<double, 3> saddle_position(const std::array<double, 8>& k, const std::array<double, 3>& abc, double q) {
     const auto [k0, k1, k2, k3, k4, k5, k6, k7] = k;
     // (root - k) / k7 without cancellation: the numerator is that of (root^2 - k^2) / k7, which divides by a.
-    const auto coordinate = [k7 = k7](double a, double root, double of_axis, double numerator) {
-        return root * of_axis <= 0 ? (root - of_axis) / k7 : -numerator / (a * (root + of_axis));
+    const auto coordinate = [last = k7](double a, double root, double of_axis, double numerator) {
+        return root * of_axis <= 0 ? (root - of_axis) / last : -numerator / (a * (root + of_axis));
     };
     return {coordinate(abc[0], -q / abc[0], k6, k2 * k3 * k7 - k2 * k5 * k6 - k3 * k4 * k6 + k1 * k6 * k6),
             coordinate(abc[1], -q / abc[1], k5, k1 * k3 * k7 - k1 * k5 * k6 - k3 * k4 * k5 + k2 * k5 * k5),

@@ -18,9 +18,7 @@ double shine_of(double cosine) {
 }  // namespace
 
 Lights::Lights(const CameraRays& camera)
-    : up_(camera.up),
-      toward_(camera.toward),
-      key_(unit(add(along(scale(camera.right, -0.55), 0.75, camera.up), scale(camera.toward, 0.75)))) {
+    : up_(camera.up), key_(unit(add(along(scale(camera.right, -0.55), 0.75, camera.up), scale(camera.toward, 0.75)))) {
     basis_of(key_, key_u_, key_v_);
 }
 

@@ -27,7 +27,7 @@ public:
     [[nodiscard]] Vec3 to_key(Sample2 sample) const;
 
 private:
-    Vec3 up_, toward_, key_, key_u_, key_v_;
+    Vec3 up_, key_, key_u_, key_v_;
 };
 
 /// A direction around the normal, cosine-weighted.

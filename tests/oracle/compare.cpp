@@ -38,7 +38,7 @@ const char* kind_text(Kind kind) {
 }  // namespace
 
 isoatlas::Volume to_volume(const Grid& grid, isoatlas::ValueType type) {
-    isoatlas::Volume volume = isoatlas::make_volume({grid.rank, grid.size}, type);
+    isoatlas::Volume volume = isoatlas::make_volume({grid.rank, {grid.size}}, type);
     const auto put = [&]<class T>(T) {
         std::transform(grid.value.begin(), grid.value.end(), volume.samples<T>().begin(), [](double v) { return static_cast<T>(v); });
     };

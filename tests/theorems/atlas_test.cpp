@@ -178,7 +178,7 @@ TEST_F(Stores, ReadOnlyTheBricksOfTheSurface) {
 /// The bricks that a surface may need, each a flag: those that tau divides, and those with a sample of the other class in a cell with one
 /// of theirs, or two steps away (the end of an edge, and the neighbour that its normal looks at). Outside of the volume everything is Low.
 std::vector<bool> bricks_near_surface(const Grid& grid, double tau) {
-    const isoatlas::BrickGrid bricks({grid.rank, grid.size});
+    const isoatlas::BrickGrid bricks({grid.rank, {grid.size}});
     const auto is_high = [&](Index x, Index y, Index z) {
         return grid.contains({x, y, z}) && grid.value[static_cast<std::size_t>(grid.index(x, y, z))] >= tau;
     };

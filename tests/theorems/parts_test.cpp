@@ -21,7 +21,7 @@ using isoatlas::CriticalSet;
 using isoatlas::ElementCode;
 
 CriticalSet<Id> critical_set(const Grid& grid, isoatlas::Interpolant interpolant) {
-    const isoatlas::GridView<double> view{grid.value.data(), {grid.rank, grid.size}};
+    const isoatlas::GridView<double> view{grid.value.data(), {grid.rank, {grid.size}}};
     const double tunnel_height = isoatlas::tunnel_height_of(interpolant, 0);
     return isoatlas::GridDomain<double, Id>(view, isoatlas::scan_grid(view, tunnel_height, {})).critical(false, {}).set;
 }

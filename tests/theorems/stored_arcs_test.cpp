@@ -35,7 +35,7 @@ isoatlas::Context context_of(int threads, Index tile) {
 
 /// One voxel after the other.
 std::vector<Id> climbed(const Grid& grid, isoatlas::Interpolant interpolant) {
-    const isoatlas::GridView<double> view{grid.value.data(), {grid.rank, grid.size}};
+    const isoatlas::GridView<double> view{grid.value.data(), {grid.rank, {grid.size}}};
     const double tunnel_height = isoatlas::tunnel_height_of(interpolant, 0);
     const auto [set, basin] = isoatlas::GridDomain<double, Id>(view, isoatlas::scan_grid(view, tunnel_height, {})).critical(true, {});
     const auto parent = isoatlas::join_tree(set);

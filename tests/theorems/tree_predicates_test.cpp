@@ -28,7 +28,7 @@ struct Trees {
 
     Trees(const Grid& grid, isoatlas::Interpolant interpolant)
         : rank(grid.rank), analysis(isoatlas::analyse(to_volume(grid), {.interpolant = interpolant})) {
-        const isoatlas::GridView<double> view{grid.value.data(), {grid.rank, grid.size}};
+        const isoatlas::GridView<double> view{grid.value.data(), {grid.rank, {grid.size}}};
         const double tunnel_height = isoatlas::tunnel_height_of(interpolant, 0);
         const auto set = isoatlas::GridDomain<double, Id>(view, isoatlas::scan_grid(view, tunnel_height, {})).critical(false, {}).set;
         if (rank == 3) delta_chi = isoatlas::delta_chis(set.code, 3);

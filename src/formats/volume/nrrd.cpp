@@ -159,8 +159,8 @@ VolumeInfo describe_volume(const NrrdHeader& header, const NrrdAxes& axes, const
 }  // namespace
 
 bool looks_like_nrrd(FirstBytes first, const std::string&) {
-    constexpr std::string_view kMagic = "NRRD";
-    return first.size() >= kMagic.size() && std::string_view(reinterpret_cast<const char*>(first.data()), kMagic.size()) == kMagic;
+    constexpr std::string_view kNrrd = "NRRD";
+    return first.size() >= kNrrd.size() && std::string_view(reinterpret_cast<const char*>(first.data()), kNrrd.size()) == kNrrd;
 }
 
 std::unique_ptr<VolumeReader> open_nrrd(const std::string& path, const OpenOptions& options) {

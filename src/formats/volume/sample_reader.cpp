@@ -67,7 +67,7 @@ void swap_each(std::span<std::byte> samples) {
 }  // namespace
 
 std::int64_t sample_bytes(const std::string& path, const Extent& extent, ValueType type, std::int64_t volumes) {
-    constexpr std::int64_t kMax = std::numeric_limits<std::int64_t>::max();
+    constexpr std::int64_t kMost = std::numeric_limits<std::int64_t>::max();
     std::int64_t bytes = static_cast<std::int64_t>(size_of(type));
     for (const std::int64_t factor : {extent.size[0], extent.size[1], extent.size[2], volumes}) {
         if (factor < 1) {
@@ -77,7 +77,7 @@ std::int64_t sample_bytes(const std::string& path, const Extent& extent, ValueTy
                                            .expected = "at least 1",
                                            .next = "the header is damaged: get the file again or correct it"});
         }
-        if (bytes > kMax / factor) {
+        if (bytes > kMost / factor) {
             throw Error(ErrorKind::input, {.file = path,
                                            .where = "header",
                                            .what = "the sizes " + shape_text(extent) + " do not fit in 63 bits",

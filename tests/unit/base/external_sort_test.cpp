@@ -54,7 +54,9 @@ TEST_P(ExternalSort, ChunksInAnyMemory) {
         sort_chunks(
             2, std::move(chunks), key, before, [&](std::size_t n) { result.resize(n); },
             [&](std::size_t first, std::span<const Item> some) {
-                if (limit > 0) ASSERT_LE(some.size(), sortable_items<Item>(2));  // no more than that is ever in memory at once
+                if (limit > 0) {
+                    ASSERT_LE(some.size(), sortable_items<Item>(2));  // no more than that is ever in memory at once
+                }
                 write_part<Item>(std::span(result).subspan(first, some.size()), some);
             });
         EXPECT_TRUE(std::ranges::equal(result, sorted())) << limit;

@@ -287,7 +287,7 @@ TEST(NiftiSharedData, ChecksumsAndOriginals) {
     int files = 0;
     for (const auto& [name, facts] : stats.items()) {
         if (name.find(".nii") == std::string::npos) continue;
-        EXPECT_EQ(checksum(kData + name, 7), facts.at("sha256_samples")) << name;
+        EXPECT_EQ(checksum(kData + name, 7), facts.at("sha256_samples").get<std::string>()) << name;
         ++files;
     }
     EXPECT_EQ(files, 4);

@@ -101,7 +101,9 @@ TEST(PlacedLabels, NiftiHasBothFormsInEveryCase) {
             EXPECT_EQ(forms.qform_code, is_sheared ? 0 : code);
             const Affine expected = expected_affine(placed.geometry);
             EXPECT_LT(difference(expected, forms.sform, volume.info.extent.size), 1e-3);
-            if (!is_sheared) EXPECT_LT(difference(expected, forms.qform, volume.info.extent.size), 1e-3);
+            if (!is_sheared) {
+                EXPECT_LT(difference(expected, forms.qform, volume.info.extent.size), 1e-3);
+            }
             const VolumeInfo back = load_volume(folder / name).info;
             EXPECT_LT(difference(expected, placed_volumes::affine_of(back.geometry), volume.info.extent.size), 1e-3);
             EXPECT_EQ(back.geometry.space, "RAS");

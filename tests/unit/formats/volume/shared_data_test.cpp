@@ -40,8 +40,8 @@ TEST(SharedData, EverySampleIsTheRightOne) {
         SCOPED_TRACE(name);
         const std::vector<std::int64_t> dims = facts.at("dims");
         const std::int64_t steps = dims.size() == 4 ? dims[3] : 1;
-        EXPECT_EQ(checksum(kData + name, steps, 1 << 20), facts.at("sha256_samples"));
-        EXPECT_EQ(checksum(kData + name, steps, 7), facts.at("sha256_samples"));
+        EXPECT_EQ(checksum(kData + name, steps, 1 << 20), facts.at("sha256_samples").get<std::string>());
+        EXPECT_EQ(checksum(kData + name, steps, 7), facts.at("sha256_samples").get<std::string>());
         OpenOptions options;
         if (steps > 1) options.time_step = 0;
         const std::unique_ptr<VolumeReader> reader = open_volume(kData + name, options);

@@ -233,7 +233,7 @@ TEST(TiffSharedData, OriginalsEqualTheConvertedFiles) {
             oracle::Sha256 sum;
             const std::string bytes = read_all(*open_volume(kData + original), slices);
             sum.add(std::as_bytes(std::span(bytes)));
-            EXPECT_EQ(sum.hex(), stats.at(converted).at("sha256_samples")) << original;
+            EXPECT_EQ(sum.hex(), stats.at(converted).at("sha256_samples").get<std::string>()) << original;
         }
     }
     const Geometry beads = open_volume(kData + "beads/original/Bead_Image1_crop.tif")->info().geometry;
