@@ -2,6 +2,8 @@
 #include "isoatlas/label_page.h"
 
 #include <algorithm>
+#include <functional>
+#include <vector>
 
 #include "base/cancel.h"
 #include "base/phase.h"
@@ -36,18 +38,37 @@ Volume mask_of(const Volume& volume, std::int64_t label) {
     return mask;
 }
 
-/// Draws its picture. Returns its surface with few triangles; empty of a 2D volume.
-CoarseSurface draw(const Volume& volume, Interpolant interpolant, LabelCard& card, const PageOptions& options, const Context& context) {
+/// Draws its picture; use(surface): before that, of a 3D volume.
+void draw(const Volume& volume, Interpolant interpolant, LabelCard& card, const PageOptions& options,
+          const std::function<void(const Surface&)>& use, const Context& context) {
     if (volume.info.extent.rank == 2) {
         card.picture = draw_still(mask_of(volume, card.region.label), 0.5, card.colour, options, context);
-        return {};
+        return;
     }
     ExtractOptions extracted{.interpolant = interpolant};
     extracted.surface.ids = false;
     Surface surface = extract_label(volume, card.region.label, extracted, context);
-    CoarseSurface coarse = coarse_for_page(surface, context);
+    use(surface);
     card.picture = draw_turntable(std::move(surface), card.colour, options, context);
-    return coarse;
+}
+
+void draw_all(const Volume& volume, Interpolant interpolant, std::span<LabelCard> cards, const PageOptions& options,
+              const std::function<void(const Surface&)>& use, const Context& context) {
+    Context silent = context;
+    silent.progress = nullptr;
+    for (std::size_t i = 0; i < cards.size(); ++i) {
+        report(context, only_phase("draw"), static_cast<double>(i) / static_cast<double>(cards.size()));
+        stop_if_cancelled(context);
+        draw(volume, interpolant, cards[i], options, use, silent);
+    }
+}
+
+/// As many triangles each as fit in the bytes together. surfaces: of the cards; none of a 2D volume.
+void add_meshes(const std::vector<CoarseSurface>& surfaces, std::span<LabelCard> cards, std::int64_t bytes, const Context& context) {
+    for (std::size_t i = 0; i < surfaces.size(); ++i) {
+        cards[i].mesh = page_mesh(surfaces[i], bytes / static_cast<std::int64_t>(surfaces.size() - i), context);
+        bytes -= std::ssize(cards[i].mesh.data);
+    }
 }
 
 /// Largest first.
@@ -111,7 +132,7 @@ void write_card(JsonStream& json, const LabelCard& card, const std::string& sour
 }
 
 std::string json_of(const Volume& volume, Interpolant interpolant, const std::vector<LabelCard>& cards, std::int64_t background,
-                    const PageOptions& options) {
+                    const PageOptions& options, bool is_complete) {
     std::string text;
     JsonStream json([&text](std::string_view more) { text += more; });
     json.begin_object().key("schema").value("isoatlas/label-page/1").key("version").value(ISOATLAS_VERSION).line();
@@ -119,7 +140,7 @@ std::string json_of(const Volume& volume, Interpolant interpolant, const std::ve
     json.key("notes").begin_array();
     for (const std::string& note : options.notes) json.value(note);
     json.end_array().key("interpolant").value(name_of(interpolant)).key("background").value(background);
-    json.line().key("labels").begin_array();
+    json.key("complete").value(is_complete).line().key("labels").begin_array();
     for (const LabelCard& card : cards) write_card(json, card, options.source.empty() ? volume.info.path : options.source);
     json.end_array().line().end_object().finish();
     return text;
@@ -134,24 +155,25 @@ PageReport write_label_page(const std::string& path, const Volume& volume, Inter
     check_has_pages();
     const LabelTable table = list_labels(volume, {.interpolant = interpolant}, context);
     std::vector<LabelCard> cards = cards_of(table, names);
+    const std::int64_t shown = std::min<std::int64_t>(options.top, std::ssize(cards));
     Context silent = context;
     silent.progress = nullptr;
-    const std::int64_t shown = std::min<std::int64_t>(options.top, std::ssize(cards));
+    const std::span drawn(cards.data(), static_cast<std::size_t>(shown));
+    const auto text_of = [&](bool is_complete) { return json_of(volume, interpolant, cards, table.background, options, is_complete); };
+    PageReport page{.objects = shown, .hidden = std::ssize(cards) - shown};
+    if (options.stills_written) {
+        PageOptions still = options;
+        still.frames = 1;
+        draw_all(volume, interpolant, drawn, still, [](const Surface&) {}, context);
+        page.bytes = write_page_file(path, text_of(false));
+        options.stills_written(page);
+    }
     std::vector<CoarseSurface> surfaces;
-    for (std::int64_t i = 0; i < shown; ++i) {
-        report(context, only_phase("draw"), static_cast<double>(i) / static_cast<double>(shown));
-        stop_if_cancelled(context);
-        LabelCard& card = cards[static_cast<std::size_t>(i)];
-        surfaces.push_back(draw(volume, interpolant, card, options, silent));
-    }
-    std::int64_t left = bytes_for_meshes(json_of(volume, interpolant, cards, table.background, options), shown);
-    for (std::int64_t i = 0; i < shown; ++i) {
-        LabelCard& card = cards[static_cast<std::size_t>(i)];
-        card.mesh = page_mesh(surfaces[static_cast<std::size_t>(i)], left / (shown - i), silent);
-        left -= std::ssize(card.mesh.data);
-    }
-    const std::int64_t bytes = write_page_file(path, json_of(volume, interpolant, cards, table.background, options));
-    return {.objects = shown, .hidden = std::ssize(cards) - shown, .bytes = bytes};
+    draw_all(
+        volume, interpolant, drawn, options, [&](const Surface& surface) { surfaces.push_back(coarse_for_page(surface, silent)); }, context);
+    add_meshes(surfaces, drawn, bytes_for_meshes(text_of(true), shown), silent);
+    page.bytes = write_page_file(path, text_of(true));
+    return page;
 }
 
 }  // namespace isoatlas

@@ -1,7 +1,9 @@
 """What is assumed about the samples, and what the user says instead of the header: fill values, labels, noise, geometry, units."""
 import json
 import struct
+import subprocess
 
+import harness
 from harness import CliTest, main
 
 MICRO = "\u00b5m"
@@ -168,6 +170,19 @@ class Assumed(CliTest):
         data = json.loads(text.split('id="atlas-data" type="application/json">')[1].split("</script>")[0])
         self.assert_schema(data, "label-page")
         return data
+
+    def test_the_page_of_labels_is_written_with_still_pictures_first(self):
+        process = subprocess.Popen([harness.CLI, "labels.npy", "-o", "first.html"], cwd=self.folder, stdout=subprocess.PIPE,
+                                   stderr=subprocess.PIPE, text=True)
+        while "they turn when the page is complete" not in (line := process.stderr.readline()):
+            self.assertNotEqual(line, "", "it ended without still pictures")
+        early = self.label_page("first.html")
+        self.assertTrue(all(label["picture"]["frames"] == 1 and not label["mesh"] for label in early["labels"]) or early["complete"])
+        process.communicate(timeout=600)
+        self.assertEqual(process.returncode, 0)
+        page = self.label_page("first.html")
+        self.assertTrue(page["complete"])
+        self.assertTrue(all(label["picture"]["frames"] > 1 and label["mesh"]["keepsTopology"] for label in page["labels"]))
 
     def test_labels_have_a_page(self):
         document = self.run_json("labels.npy", "-o", "labels.html")

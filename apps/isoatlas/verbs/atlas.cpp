@@ -45,6 +45,12 @@ std::optional<PageSmoothing> smoothing_of(const Arguments& arguments, const Volu
 
 }  // namespace
 
+std::function<void(const PageReport&)> tell_stills(Terminal& terminal, const std::string& page) {
+    return [&terminal, page](const PageReport& first) {
+        terminal.say("note: " + page + " has its " + counted(first.objects, "picture") + "; they turn when the page is complete");
+    };
+}
+
 int run_atlas(const Arguments& arguments, Terminal& terminal) {
     if (arguments.inputs.are_labels) return run_label_page(arguments, terminal);
     const std::string page = arguments.output.empty() ? stem_of(arguments) + ".atlas.html" : arguments.output;
@@ -71,9 +77,7 @@ int run_atlas(const Arguments& arguments, Terminal& terminal) {
             .source = store,
             .notes = notes_of(arguments, atlas),
             .smoothing = smoothing_of(arguments, atlas.info(), page),
-            .stills_written = [&](const PageReport& first) {
-                terminal.say("note: " + page + " has its " + counted(first.objects, "picture") + "; they turn when the page is complete");
-            }};
+            .stills_written = tell_stills(terminal, page)};
         report = write_page(page, atlas, options, session.context());
     }
     if (arguments.json) {

@@ -76,7 +76,8 @@ int run_label_page(const Arguments& arguments, Terminal& terminal) {
     for (const std::string& note : arguments.inputs.assumed) add(note);
     const PageOptions options{.top = arguments.top > 0 ? arguments.top : kPictures,
                               .source = shell_word(arguments.file) + reading_options(arguments),
-                              .notes = notes};
+                              .notes = notes,
+                              .stills_written = tell_stills(terminal, page)};
     PageReport report;
     {
         const WritingGuard guard;

@@ -18,6 +18,8 @@ int run_tree(const Arguments& arguments, Terminal& terminal);
 int run_objects(const Arguments& arguments, Terminal& terminal);
 int run_measure(const Arguments& arguments, Terminal& terminal);
 int run_extract(const Arguments& arguments, Terminal& terminal);
+/// Says that a page has its still pictures (PageOptions::stills_written).
+[[nodiscard]] std::function<void(const PageReport&)> tell_stills(Terminal& terminal, const std::string& page);
 /// `objects` and `extract` of a label volume.
 int list_label_objects(const Arguments& arguments, Terminal& terminal);
 int extract_label_objects(const Arguments& arguments, Terminal& terminal);
@@ -51,6 +53,7 @@ struct Verb {
     std::string name, operand, summary;
     std::vector<std::string> examples;  ///< full command lines
     int (*run)(const Arguments&, Terminal&);
+    std::string terms{};  ///< below the examples: what words of its output mean
 };
 
 /// In the order of the help.

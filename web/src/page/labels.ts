@@ -5,6 +5,7 @@ import { count, plural, value, volume } from "../shared/format";
 import type { PageMesh, Picture } from "../shared/page";
 import { turntable } from "../shared/turntable";
 import { turnButton } from "./turnable";
+import { unfinished } from "./unfinished";
 
 /** Data as `isoatlas` writes them: docs/schema/label-page.schema.json. Largest label first. */
 export interface LabelPage {
@@ -15,6 +16,8 @@ export interface LabelPage {
   interpolant: string;
   /** voxels of label 0 */
   background: number;
+  /** false: with still pictures only, while isoatlas draws the others */
+  complete?: boolean;
   labels: Label[];
 }
 
@@ -97,6 +100,7 @@ export function showLabels(page: LabelPage, main: HTMLElement): void {
       html("h1", {}, about.name),
       html("p", {}, `${about.size.join(" × ")} samples, ${about.type}, ${plural(page.labels.length, "label")}${spacing}.`),
       html("p", {}, `${count(page.background)} voxels are background (label 0).`),
+      page.complete === false ? unfinished() : null,
       ...page.notes.map((words) => html("p", { class: "assumed" }, `Note: ${words}.`)),
     ),
     html(

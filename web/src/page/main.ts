@@ -17,6 +17,7 @@ import { overview } from "../shared/overview";
 import { hasCard, readPage, type Page } from "../shared/page";
 import { smoothing } from "./smoothing";
 import { spectrum } from "./spectrum";
+import { unfinished } from "./unfinished";
 import "./page.css";
 
 const sides: Record<string, string> = {
@@ -30,11 +31,7 @@ function head(page: Page): HTMLElement {
   const notes = page.notes?.length ?? 0;
   const link = notes > 0 ? html("a", { href: "#about" }, "How it was read") : null;
   const size = `${volume.size.join(" × ")} samples${volume.valueUnit ? `, values in ${volume.valueUnit}` : ""}. `;
-  const reload = html("button", { type: "button" }, "Reload");
-  reload.addEventListener("click", () => location.reload());
-  const words = "Still pictures only: isoatlas was drawing the rest when this page was opened. ";
-  const unfinished = html("p", { class: "assumed" }, words, reload);
-  return html("header", {}, html("h1", {}, volume.name), html("p", {}, size, link), page.complete === false ? unfinished : null);
+  return html("header", {}, html("h1", {}, volume.name), html("p", {}, size, link), page.complete === false ? unfinished() : null);
 }
 
 /** Below them: what is known of the volume, and what was found in it. */
