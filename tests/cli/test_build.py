@@ -153,6 +153,8 @@ class Builds(harness.CliTest):
         told = self.run_json("build", "noise.nrrd", "-o", "dry.atlas", "--dry-run", "--memory", "100M")["estimate"]
         self.assertEqual(told["budget"], 100 * 2 ** 20)
         self.assertGreater(told["critical_elements"], 0.5 * 72 ** 3)
+        self.assertEqual(self.run_json("build", "noise.nrrd", "--dry-run", "--memory", "100M")["estimate"]["store_bytes"], told["store_bytes"])
+        self.run_error(2, "build", "noise.nrrd", says="needs --output FILE")
         self.assertFalse((self.folder / "dry.atlas").exists())
         self.assertEqual(self.left("dry.atlas"), [])
         with open(self.folder / "huge.raw", "wb") as huge:

@@ -1,4 +1,5 @@
 """isoatlas, --help, help VERB, --version, did you mean, completion."""
+import json
 import os
 import pathlib
 import re
@@ -68,6 +69,14 @@ class Help(CliTest):
         self.run_error(2, "help", "extrct", next_says="isoatlas extract")
         self.run_error(2, "extract", "x.nrrd", "--ojbect", "5", "-o", "x.ply", says="--ojbect", next_says="--object")
         self.run_error(2, "phantom", "gyroyd", "-o", "x.nrrd", next_says="gyroid")
+        self.run_error(2, "obj", "x.nrrd", next_says="isoatlas objects")
+        self.assertNotIn("did you mean", self.run_error(2, "objects", "x.nrrd", "--foo", says="--foo")["next"])
+
+    def test_reasons_are_explained_where_they_are_listed(self):
+        told = self.run_ok("objects", "--help").stdout.split("Reasons for an isovalue:")[1]
+        schema = json.loads((SOURCE / "docs/schema/objects.schema.json").read_text())
+        listed = schema["properties"]["objects"]["items"]["properties"]["reason"]["enum"]
+        self.assertEqual(re.findall(r"(?m)^  (\w+) {2,}", told), [reason for reason in listed if reason])
 
     def test_a_file_instead_of_a_verb(self):
         """It is shown: what is said is about the file."""

@@ -48,7 +48,7 @@ std::unique_ptr<CLI::App> make_parser(const Verb& verb, Arguments& arguments, Ty
     app->get_formatter()->column_width(34);
     std::string examples = "Examples:\n";
     for (const std::string& example : verb.examples) examples += "  " + example + "\n";
-    app->footer(examples + "\nExit codes: isoatlas --help. More: docs/cli.md");
+    app->footer(examples + verb.terms + "\nExit codes: isoatlas --help. More: docs/cli.md");
     return app;
 }
 

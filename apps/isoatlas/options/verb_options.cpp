@@ -119,9 +119,9 @@ void name_options(CLI::App& app, Arguments& /*arguments*/, Typed& typed) {
 }
 
 void build_options(CLI::App& app, Arguments& arguments, Typed& typed) {
-    add_output(app, arguments, ".atlas", true);
+    add_output(app, arguments, ".atlas", false);
     add_build(app, arguments, typed);
-    app.add_flag("--dry-run", arguments.dry_run, "Only estimate memory, disk and time");
+    app.add_flag("--dry-run", arguments.dry_run, "Only estimate memory, disk and time; needs no --output");
 }
 
 void atlas_options(CLI::App& app, Arguments& arguments, Typed& typed) {

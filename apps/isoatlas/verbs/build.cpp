@@ -6,6 +6,8 @@
 #include <fmt/format.h>
 
 #include "data/session.h"
+#include "data/store_beside.h"
+#include "options/parse_errors.h"
 #include "options/suggest.h"
 #include "text/document.h"
 #include "text/interrupt.h"
@@ -52,12 +54,13 @@ Json estimate_json(const BuildEstimate& estimate) {
 
 /// Prints the estimate of a build; throws where the build would.
 int dry_run(const Arguments& arguments, Terminal& terminal, VolumeReader& reader, BuildOptions options) {
+    const std::string store = arguments.output.empty() ? stem_of(arguments) + ".atlas" : arguments.output;
     if (options.tunnel_height_percent > 0) {  // of the unfiltered samples: accurate enough to count elements
         const ValueRange range = range_of(reader);
         options.analysis.tunnel_height = options.tunnel_height_percent / 100 * (range.high - range.low);
     }
-    const BuildEstimate estimate = estimate_build(reader, arguments.output, options, arguments.threads);
-    check_estimate(estimate, reader.info().path, arguments.output);
+    const BuildEstimate estimate = estimate_build(reader, store, options, arguments.threads);
+    check_estimate(estimate, reader.info().path, store);
     if (arguments.json) {
         Json json = document("build", reader.info(), options.analysis.interpolant, options.analysis.tunnel_height);
         json["estimate"] = estimate_json(estimate);
@@ -175,7 +178,11 @@ BuildReport build_store(const Arguments& arguments, Terminal& terminal, VolumeRe
 }
 
 int run_build(const Arguments& arguments, Terminal& terminal) {
-    check_output(arguments, {".atlas"});
+    if (!arguments.output.empty()) {
+        check_output(arguments, {".atlas"});
+    } else if (!arguments.dry_run) {
+        usage("`isoatlas build` needs --output FILE", "isoatlas build --help");
+    }
     check_missing_of_both(arguments);
     if (is_atlas(arguments.file)) {
         throw Error(ErrorKind::usage,

@@ -7,6 +7,16 @@ namespace isoatlas::cli {
 
 namespace {
 
+/// docs/cli.md#the-page, "Why there".
+const char* const kReasons =
+    "\nReasons for an isovalue:\n"
+    "  stable    the size hardly depends on the isovalue here: the boundary is sharp\n"
+    "  outline   everything that is not background\n"
+    "  outer     the outside alone, with cavities filled, is sharpest here\n"
+    "  inner     the wall of a cavity is sharpest here\n"
+    "  merge     just above the value where it merges: no isovalue is prominent\n"
+    "  middle    of the range of the object that never merges: no isovalue is prominent\n";
+
 const std::vector<Verb> kVerbs{
     {"atlas",
      "VOLUME",
@@ -35,7 +45,8 @@ const std::vector<Verb> kVerbs{
      "List the objects of a volume and the isovalues that show them.",
      {"isoatlas objects scan.nii.gz", "isoatlas objects scan.nii.gz --tau 300", "isoatlas objects scan.nii.gz --top 5 --json",
       "isoatlas objects scan.nii.gz --keep 10 --both"},
-     run_objects},
+     run_objects,
+     kReasons},
     {"measure",
      "VOLUME",
      "Measure objects: volume, area, shape, values; porosity, percolation, distribution of sizes.",
