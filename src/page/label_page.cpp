@@ -170,7 +170,8 @@ PageReport write_label_page(const std::string& path, const Volume& volume, Inter
     }
     std::vector<CoarseSurface> surfaces;
     draw_all(
-        volume, interpolant, drawn, options, [&](const Surface& surface) { surfaces.push_back(coarse_for_page(surface, silent)); }, context);
+        volume, interpolant, drawn, options, [&](const Surface& surface) { surfaces.push_back(coarse_for_page(surface, silent)); },
+        context);
     add_meshes(surfaces, drawn, bytes_for_meshes(text_of(true), shown), silent);
     page.bytes = write_page_file(path, text_of(true));
     return page;
