@@ -68,16 +68,15 @@ int run_atlas(const Arguments& arguments, Terminal& terminal) {
         const WritingGuard guard;
         const std::int64_t top = arguments.top > 0 ? arguments.top : 24;
         const auto names = [&](Polarity side) { return names_in(object_names_path(store, side), atlas.info().extent, terminal); };
-        const PageOptions options{
-            .top = top,
-            .top_cavities = (top + 1) / 2,
-            .names = names(polarity_of(atlas.info())),
-            .low = low ? &*low : nullptr,
-            .low_names = low ? names(Polarity::low) : std::vector<ObjectName>{},
-            .source = store,
-            .notes = notes_of(arguments, atlas),
-            .smoothing = smoothing_of(arguments, atlas.info(), page),
-            .stills_written = tell_stills(terminal, page)};
+        const PageOptions options{.top = top,
+                                  .top_cavities = (top + 1) / 2,
+                                  .names = names(polarity_of(atlas.info())),
+                                  .low = low ? &*low : nullptr,
+                                  .low_names = low ? names(Polarity::low) : std::vector<ObjectName>{},
+                                  .source = store,
+                                  .notes = notes_of(arguments, atlas),
+                                  .smoothing = smoothing_of(arguments, atlas.info(), page),
+                                  .stills_written = tell_stills(terminal, page)};
         report = write_page(page, atlas, options, session.context());
     }
     if (arguments.json) {
