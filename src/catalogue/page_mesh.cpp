@@ -44,9 +44,10 @@ PageMesh page_mesh(const CoarseSurface& coarse, std::int64_t max_bytes, const Co
     const double step = diagonal(coarse.surface) / kSteps;
     if (!(step > 0)) return {};
     while (true) {
-        const WireMesh packed = wire_mesh(now.surface, {.step = step}, context);
+        const WireMesh packed = wire_mesh(now.surface, {.step = step, .distinct = true}, context);
         if (base64_size(packed.bytes) <= max_bytes)
-            return {base64(std::as_bytes(std::span(packed.bytes))), packed.triangles, coarse.of, now.keeps_topology};
+            return {base64(std::as_bytes(std::span(packed.bytes))), packed.triangles, coarse.of,
+                    now.keeps_topology && packed.without_area == 0};
         const double fits = static_cast<double>(max_bytes) / static_cast<double>(base64_size(packed.bytes));
         const double next = static_cast<double>(packed.triangles) * std::min(kFewer, fits);
         if (next < 32) return {};

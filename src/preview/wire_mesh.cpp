@@ -12,6 +12,7 @@
 #include "base/parallel.h"
 #include "isoatlas/error.h"
 #include "preview/coarse_surface.h"
+#include "preview/distinct_places.h"
 
 namespace isoatlas {
 namespace {
@@ -21,7 +22,7 @@ constexpr double kSteps = 65535;
 constexpr std::size_t kPart = std::size_t{3} << 15;  ///< corners: fixed, so that the bytes do not depend on threads
 
 struct WirePoint {
-    std::array<std::uint16_t, 3> position{};
+    LatticePlace position{};
     std::array<std::int8_t, 2> normal{};
 };
 static_assert(sizeof(WirePoint) == 8);
@@ -116,6 +117,15 @@ void put_in_order(std::vector<unsigned>& corners, std::vector<WirePoint>& points
     points.swap(ordered);
 }
 
+/// Returns how many triangles have no area.
+std::size_t part(std::vector<WirePoint>& points, const std::vector<unsigned>& corners) {
+    std::vector<LatticePlace> places(points.size());
+    std::ranges::transform(points, places.begin(), &WirePoint::position);
+    const std::size_t left = make_places_distinct(places, corners);
+    for (std::size_t i = 0; i < points.size(); ++i) points[i].position = places[i];
+    return left;
+}
+
 using Bytes = std::vector<unsigned char>;
 
 Bytes packed(const std::vector<WirePoint>& points) {
@@ -164,6 +174,7 @@ WireMesh wire_mesh(const Surface& surface, const WireOptions& options, const Con
     stop_if_cancelled(context);
     if (mesh.coarse) corners = fewer(corners, points, static_cast<std::size_t>(options.max_triangles));
     put_in_order(corners, points, context);
+    if (options.distinct) mesh.without_area = part(points, corners);
     stop_if_cancelled(context);
     mesh.points = static_cast<std::int64_t>(points.size());
     mesh.triangles = static_cast<std::int64_t>(corners.size() / 3);

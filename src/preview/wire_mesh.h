@@ -22,12 +22,14 @@ namespace isoatlas {
 struct WireOptions {
     double step = 0;                 ///< of positions, physical; larger where 65536 steps do not span the surface. Positive
     std::int64_t max_triangles = 0;  ///< reduced by vertex clustering above this; 0: no limit
+    bool distinct = false;  ///< points keep places of their own and triangles an area (distinct_places.h), for files without indices
 };
 
 struct WireMesh {
     std::string bytes;
     std::int64_t points = 0, triangles = 0;
-    bool coarse = false;  ///< triangles were left out
+    bool coarse = false;           ///< triangles were left out
+    std::size_t without_area = 0;  ///< WireOptions::distinct: triangles without area nevertheless
 };
 
 /// surface: of a 3D volume, with normals. Throws Error: resource (more than 2^31 points or 2^30 triangles), cancelled.
