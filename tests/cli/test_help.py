@@ -142,7 +142,8 @@ class Help(CliTest):
     def test_completion_is_a_script_that_bash_accepts_and_that_completes(self):
         script = self.run_ok("completion", "bash").stdout
         (self.folder / "scan.nrrd").write_text("")
-        for typed, expected in (("extract --ob", "--object"), ("scan", "scan.nrrd"), ("tree --polarity b", "both"), ("extract sc", "scan.nrrd")):
+        for typed, expected in (("extract --ob", "--object"), ("scan", "scan.nrrd"), ("tree --polarity b", "both"), ("extract sc", "scan.nrrd"),
+                                ("extract scan.nrrd --shell o", "outer"), ("tree --detail l", "levels")):
             words = typed.split()
             probe = script + f'\nCOMP_WORDS=(isoatlas {typed}); COMP_CWORD={len(words)}; _isoatlas; echo "${{COMPREPLY[@]}}"\n'
             done = subprocess.run(["bash", "-u", "-c", probe], cwd=self.folder, capture_output=True, text=True)

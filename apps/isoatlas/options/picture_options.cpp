@@ -35,7 +35,7 @@ void add_picture(CLI::App& app, Arguments& arguments, PictureWords& words) {
     add("--view", words.view, "auto, front, back, left, right, top, bottom, or angles AROUND,ABOVE in degrees", "FROM");
     add("--up", words.up, "Up axis of the picture: x, y, z, -x, -y or -z", "AXIS");
     add("--size", words.size, "Pixels: 768x768", "WxH");
-    add("--background", words.background, "light, dark or transparent", "NAME");
+    add("--background", words.background, "light, dark or transparent", "light|dark|transparent");
     add("--samples", arguments.picture.samples, "Samples per pixel (4): more is smoother and slower", "N")->check(in_range(1, 256));
     app.add_flag("--perspective", arguments.picture.perspective, "Perspective projection, without a scale bar");
     app.add_flag("--plain", arguments.picture.plain, "No scale bar and no legend");

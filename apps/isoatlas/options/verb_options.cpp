@@ -33,7 +33,7 @@ void add_objects(CLI::App& app, Typed& typed, const std::string& meaning) {
 }
 
 void tree_options(CLI::App& app, Arguments& arguments, Typed& typed) {
-    app.add_option("--detail", typed.detail, "events, levels, elements or contours")->type_name("WHAT");
+    app.add_option("--detail", typed.detail, "events, levels, elements or contours")->type_name("events|levels|elements|contours");
     app.add_flag("--all", arguments.all, "Events as JSON: also columns that follow from others, and the genera of contours");
     add_selection(app, typed.selection, true);
     add_output(app, arguments, ".json .graphml .csv .vtu", false);
@@ -80,11 +80,12 @@ void extract_options(CLI::App& app, Arguments& arguments, Typed& typed) {
     add_number(app, "--min-wall", arguments.min_wall, "With --for-print: warn of walls thinner than this (0.8)")
         ->check(in_range(0.0, 1e6))
         ->type_name("MM");
-    app.add_option("--shell", typed.shell, "outer: outer shells, inner: walls of cavities, all")->type_name("WHICH");
-    app.add_option("--style", typed.style, "compact: fewer triangles, full: an articulation point in every hit set")->type_name("STYLE");
-    app.add_option("--boundary", typed.boundary, "closed: caps at the border of the volume, open: no caps")->type_name("RULE");
+    app.add_option("--shell", typed.shell, "outer: outer shells, inner: walls of cavities, all")->type_name("outer|inner|all");
+    app.add_option("--style", typed.style, "compact: fewer triangles, full: an articulation point in every hit set")
+        ->type_name("compact|full");
+    app.add_option("--boundary", typed.boundary, "closed: caps at the border of the volume, open: no caps")->type_name("closed|open");
     app.add_option("--space", typed.space, "Coordinates of medical volumes: lps (as Slicer), ras, or file: those of the volume")
-        ->type_name("SPACE");
+        ->type_name("lps|ras|file");
     app.add_flag("--best", arguments.best, "The first object of the table at its best isovalue");
     add_output(app, arguments, ".ply .stl .obj .vtp .glb", true);
 }
@@ -208,7 +209,7 @@ void add_reading(CLI::App& app, Arguments& arguments, Typed& typed) {
     app.add_option("--type", typed.type, "Sample type of a RAW file: uint8 int8 uint16 int16 uint32 int32 float32 float64")
         ->type_name("T")
         ->group(group);
-    app.add_option("--endian", typed.endian, "Byte order of a RAW file: little or big")->type_name("E")->group(group);
+    app.add_option("--endian", typed.endian, "Byte order of a RAW file: little or big")->type_name("little|big")->group(group);
     add_number(app, "--skip", typed.skip, "Bytes before the samples of a RAW file")->type_name("BYTES")->group(group);
     app.add_option("--spacing", typed.spacing, "Spacing of the samples per axis: 0.7,0.7,1.5; instead of the header's")
         ->type_name("X,Y[,Z]")
@@ -238,7 +239,7 @@ void add_reading(CLI::App& app, Arguments& arguments, Typed& typed) {
 
 void add_interpolant(CLI::App& app, Typed& typed) {
     app.add_option("--interpolant", typed.interpolant, "Connectivity inside cells: trilinear (default), or faces for the face rule alone")
-        ->type_name("NAME")
+        ->type_name("trilinear|faces")
         ->group("Input options");
     app.add_option("--tunnel-height", typed.tunnel_height, "Ignore tunnels through cells of at most this height (trilinear)")
         ->type_name("H|P%")
