@@ -84,6 +84,14 @@ class Pictures(CliTest):
         self.assertTrue(upwards != downwards)
         self.assertTrue([row[::-1] for row in upwards[::-1]] == downwards)
 
+    def test_up(self):
+        def drawn(up):
+            return self.picture("figure.nrrd", "--tau", "60", "--view", "front", f"--up={up}")
+
+        self.assertEqual(drawn("-z"), drawn("0,0,-2"))
+        self.assertEqual(drawn("y"), drawn("0,1,0"))
+        self.assertNotEqual(drawn("z"), drawn("0.5,0,0.866"))
+
     def test_materials(self):
         air, flesh = "air:0:8:#000000:0", "flesh:60:10:#FF0000:0.2"
         document = self.run_json("render", "figure.nrrd", "--material", air, "--material", flesh, "--material", "bone:90:5:#0000FF", *self.small, "-o", "m.png")
@@ -247,7 +255,8 @@ class Pictures(CliTest):
         self.run_error(2, "render", "figure.nrrd", "-o", "p.png", "--eye", "1,2,3", "--target", "1,2,3", says="--eye")
         self.run_error(2, "render", "figure.nrrd", "-o", "p.png", "--contour", "12", says="contour 12")
         self.run_error(2, "render", "figure.nrrd", "-o", "p.png", "--colour", "red", says="--colour")
-        self.run_error(2, "render", "figure.nrrd", "-o", "p.png", "--up", "w", says="--up")
+        for up in ("w", "0,0,0", "1,2", "1,2,3,4", "x,y,z"):
+            self.run_error(2, "render", "figure.nrrd", "-o", "p.png", "--up", up, says="--up")
         self.run_error(2, "render", "figure.nrrd", "-o", "p.png", "--size", "0x7", says="--size")
         self.run_error(2, "render", "figure.nrrd", "-o", "p.png", "--object", "12@", says="--object")
         self.run_error(2, "render", "figure.nrrd", "-o", "p.png", "--slice", "z=99", says="slice 99")

@@ -1,6 +1,7 @@
 // Parses the picture options of `render` and `animate`.
 #include "data/picture.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "options/words.h"
@@ -68,11 +69,20 @@ ShownSlice shown_slice(const std::string& word) {
     return {.axis = word[0] - 'x', .index = *index};
 }
 
-Vec3 axis_of(const std::string& word) {
+/// An axis, or any direction as three numbers; of length 1.
+Vec3 direction_of(const std::string& word) {
     const std::string axis = word.starts_with('-') ? word.substr(1) : word;
-    if (axis != "x" && axis != "y" && axis != "z") bad("--up", word, "x, y, z, -x, -y or -z");
     Vec3 up{0, 0, 0};
-    up[static_cast<std::size_t>(axis[0] - 'x')] = word == axis ? 1 : -1;
+    if (axis == "x" || axis == "y" || axis == "z") {
+        up[static_cast<std::size_t>(axis[0] - 'x')] = word == axis ? 1 : -1;
+        return up;
+    }
+    const bool has_three = std::count(word.begin(), word.end(), ',') == 2;
+    double squares = 0;
+    if (has_three) up = parse_vector("--up", word, 0);
+    for (const double u : up) squares += u * u;
+    if (!(squares > 0) || !std::isfinite(squares)) bad("--up", word, "x, y, z, -x, -y, -z or a direction such as 0.5,0,0.866");
+    for (double& u : up) u /= std::sqrt(squares);
     return up;
 }
 
@@ -125,7 +135,7 @@ void convert_picture(const PictureWords& words, PictureArguments& picture) {
     if (picture.flat && picture.slices.empty())
         throw Error(ErrorKind::usage, {.what = "--flat requires a slice", .next = "add --slice z=N, with N from 0"});
     convert_cut(words.cut, picture);
-    picture.up = axis_of(words.up);
+    picture.up = direction_of(words.up);
     picture.view = view_of(words.view, picture.up);
     picture.camera = shown_camera(words);
     convert_size(words.size, picture);

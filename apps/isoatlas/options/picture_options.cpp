@@ -33,7 +33,7 @@ void add_picture(CLI::App& app, Arguments& arguments, PictureWords& words) {
         "NAME:M:S:C[:P]");
     app.add_flag("--shadows", arguments.picture.shadows, "Shadows in the volume rendering (with --volume)");
     add("--view", words.view, "auto, front, back, left, right, top, bottom, or angles AROUND,ABOVE in degrees", "FROM");
-    add("--up", words.up, "Up axis of the picture: x, y, z, -x, -y or -z", "AXIS");
+    add("--up", words.up, "Up direction of the picture: x, y, z, -x, -y, -z or X,Y,Z", "AXIS");
     add("--size", words.size, "Pixels: 768x768", "WxH");
     add("--background", words.background, "light, dark or transparent", "light|dark|transparent");
     add("--samples", arguments.picture.samples, "Samples per pixel (4): more is smoother and slower", "N")->check(in_range(1, 256));
