@@ -345,11 +345,11 @@ describe.skipIf(!canServe)("the scene", () => {
     for (const flat of [false, true]) {
       const { tab } = await served.open(scene(3).replace(/,1,1;/, ",0.4,1,d55e00;"), { viewport: { width: 1100, height: 640 } });
       await settled(tab);
-      for (const key of ["ArrowLeft", "ArrowUp", "ArrowLeft"]) await tab.keyboard.press(key);
+      for (const key of ["ArrowLeft", "ArrowUp", "ArrowLeft", ...(flat ? ["u", "R", "q"] : ["r"])]) await tab.keyboard.press(key);
       if (flat) for (const key of ["o", "c"]) await tab.keyboard.press(key); // without perspective, and cut open
       await tab.keyboard.press("s");
       const command = (await tab.locator(".export code").textContent()) ?? "";
-      expect([command.includes("--perspective"), command.includes("--cut=")]).toEqual([!flat, flat]);
+      expect([command.includes("--perspective"), command.includes("--cut="), command.includes("--up=")]).toEqual([!flat, flat, true]);
       const words = [...command.matchAll(/--\S+?='[^']*'|'[^']*'|\S+/g)].map(([word]) => word.replaceAll("'", ""));
       served.isoatlas(...words.slice(1), "--background", "transparent", "--quiet");
       await tab.getByRole("spinbutton", { name: "width" }).fill(String(words[words.indexOf("--size") + 1]?.split("x")[0]));

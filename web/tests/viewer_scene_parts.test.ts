@@ -23,7 +23,7 @@ import type { Mesh } from "../src/shared/wire";
 import { branch, entry, page as samplePage, scene as page } from "./sample";
 
 const schemaFile = join(process.env.ISOATLAS_SCHEMAS ?? "nowhere", "scene.schema.json");
-const camera: Camera = { view: [-1, 2, 3, 0, 0, 0.5], flat: false, height: 12.5, cut: null };
+const camera: Camera = { view: [-1, 2, 3, 0, 0, 0.5], up: [0, 0, 1], flat: false, height: 12.5, cut: null };
 const two: State = { ...change(add(isolate(NOTHING, 0, 10), 1, 20.5), 1, { colour: "#12ab00", opacity: 0.5 }), view: [1, 2, 3, 4, 5, 6] };
 
 describe("what lies inside another object", () => {
@@ -244,6 +244,12 @@ describe("the command line of a scene", () => {
     const colours = `--colour '${first?.colour.toUpperCase()}' --colour '#12AB00'`;
     expect(command).toContain(`--object 1@10 --object 2@20.5 ${colours} --opacity 1 --opacity 0.5`);
     expect(command).toContain("--eye=-1,2,3 --target=0,0,0.5 --height 12.5 --perspective --size 640x480 --plain -o scene.png");
+  });
+  it("says what is up, unless it is z", () => {
+    const command = (up: number[]): string => renderCommand(page, two.shown, { ...camera, up }, [9, 9], false);
+    const up = (direction: number[]): string => / --up=\S+/.exec(command(direction))?.[0] ?? "";
+    expect([up([0, 0, 1]), up([0, 0, -1]), up([-1, 0, 0])]).toEqual(["", " --up=-z", " --up=-x"]);
+    expect(up([0.6, 0, 0.8])).toBe(" --up=0.6,0,0.8");
   });
   it("follows the order of the command line, omits hidden objects, and clips", () => {
     const all = add({ ...two, shown: two.shown.map((one, i) => ({ ...one, visible: i > 0 })) }, -1, 7);

@@ -1,5 +1,5 @@
 import { describe, expect, it } from "vitest";
-import { facesOf } from "../src/viewer/tools/face_names";
+import { facesOf } from "../src/viewer/state/directions";
 import { fromHash } from "../src/viewer/state/address";
 import { renderOptions } from "../src/viewer/state/render_options";
 import { march } from "../src/viewer/scene/compositing";

@@ -71,12 +71,14 @@ export const MENU: Record<Group, Section[]> = {
     { title: "Other objects", items: [["Ghost", "ghost"]] },
   ],
   View: [
-    { title: "Camera", items: [["Fit", "fit"], ["Orthographic", "box"], ["Rotate", "turn"], ["View along", "axis"]] },
+    { title: "Camera", items: [["Fit", "fit"], ["Orthographic", "box"], ["Rotate", "turn"]] },
+    { title: "Standard views", items: [["View", "axis"]] },
+    { title: "Up direction", items: [["Up direction", "up"], ["Roll left by 90", "undo"], ["Roll right by 90", "redo"]] },
     { title: "Clipping", items: [["Clip", "clip"], ["Flip", "turn"]] },
     { title: "Display", items: [["Volume rendering", "fog"], ["Bounding box", "box"], ["Unit", "ruler"], ["Theme", "theme"]] },
   ],
   Tools: [
-    { title: "Slices", items: [["Slices", "slices"], ["Pick", "cross"]] },
+    { title: "Slices", items: [["Slices", "slices"], ["Window presets", "theme"], ["Pick", "cross"]] },
     {
       title: "Measure",
       items: [["Measure distance", "ruler"], ["Measure angle", "angle"], ["Add crosshair", "cross"], ["Remove", "remove"]],
@@ -92,7 +94,7 @@ export const MENU: Record<Group, Section[]> = {
 };
 
 /** Only by key; the list of keys names them. */
-const BY_KEY_ONLY = /^(Orbit|Crosshair|Stop measuring)/;
+const BY_KEY_ONLY = /^(Orbit|Roll .* 5°|Flip the up|Crosshair|Window (narrower|wider|level)|Stop measuring)/;
 
 export interface Placed<A> {
   title: string;

@@ -11,6 +11,8 @@ const GESTURES: [string, string][] = [
   ["click", "on a card, line or dot: isolate the object; in 3D: select it"],
   ["shift and click", "on a card, line or dot: add or remove the object"],
   ["Enter", "in the text field: apply the isovalue"],
+  ["drag with the right or middle button", "on a slice: to the right a wider window, down a higher level"],
+  ["drag with Ctrl or Alt", "on a slice: the same"],
 ];
 
 function signsOf({ keys }: Action): string {
@@ -43,7 +45,7 @@ export function menus(actions: Actions): HTMLElement {
 
 /** Its heading and its actions. */
 function sectionOf(all: Actions, { title, actions }: Placed<Action>, id: string, done: () => void): HTMLElement[] {
-  const items = actions.map(([action, name]) => html("li", {}, buttonOf(all, action, icon(name), done)));
+  const items = actions.map(([action, name]) => html("li", { class: action.short && "half" }, buttonOf(all, action, icon(name), done)));
   return [html("p", { id }, title), html("ul", { "aria-labelledby": id }, ...items)];
 }
 
@@ -63,8 +65,8 @@ function buttonOf(actions: Actions, action: Action, sign: SVGSVGElement, done: (
     done();
     actions.run(action);
   };
-  const parts = [sign, html("span", {}, action.name), html("kbd", {}, signsOf(action))];
-  const button = html("button", { type: "button", click: run }, ...parts);
+  const parts = [sign, html("span", {}, action.short ?? action.name), html("kbd", {}, signsOf(action))];
+  const button = html("button", { type: "button", "aria-label": action.short && action.name, click: run }, ...parts);
   if (action.isOn) button.setAttribute("aria-pressed", String(action.isOn()));
   markBlocked(button, actions.whyBlocked(action));
   return button;

@@ -5,6 +5,8 @@ export interface Action {
   group: Group;
   /** label in the menu */
   name: string;
+  /** instead of the name in the menu, where half a line is enough: a part of the name */
+  short?: string;
   /** values of KeyboardEvent.key, with "Ctrl+" in front where needed */
   keys?: string[];
   run(): void;

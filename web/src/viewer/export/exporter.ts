@@ -98,7 +98,8 @@ export class Exporter {
 
   command(): string {
     const { page, history, viewport, scene } = this.context;
-    const camera = { view: viewport.rig.view, flat: viewport.rig.isFlat, height: viewport.rig.height, cut: viewport.clippedHalfSpace };
+    const { view, up, isFlat: flat, height } = viewport.rig;
+    const camera = { view, up, flat, height, cut: viewport.clippedHalfSpace };
     const size: [number, number] = [viewport.canvas.clientWidth, viewport.canvas.clientHeight];
     const options = [...this.unitOption, ...renderOptions(page, history.now)];
     return renderCommand(page, scene.drawnOf(history.now), camera, size, isDarkPage(), options);

@@ -3,10 +3,13 @@ import { isCavity, referenceOf } from "../../shared/names";
 import type { Page } from "../../shared/page";
 import { colourOfShown, EVERYTHING } from "../api/entries";
 import type { Shown } from "../state/state";
+import { upText } from "../state/up_direction";
 
 export interface Camera {
   /** six numbers: position and target */
   view: readonly number[];
+  /** upwards in the picture: a unit vector */
+  up: readonly number[];
   /** orthographic projection */
   flat: boolean;
   /** physical height of the picture at the target */
@@ -39,6 +42,8 @@ export function renderCommand(
     `--target=${camera.view.slice(3).map(short).join(",")}`,
     `--height ${short(camera.height)}`,
   );
+  const up = upText(camera.up);
+  if (up !== "z") words.push(`--up=${up}`);
   if (!camera.flat) words.push("--perspective");
   if (camera.cut) words.push(`--cut='${plane(camera.cut.normal)}>${short(camera.cut.offset)}'`);
   return [...words, `--size ${size.join("x")}`, ...(dark ? ["--background dark"] : []), "--plain", "-o scene.png"].join(" ");

@@ -1,6 +1,7 @@
 // Perspective and orthographic camera, with orbit controls around a target.
 import * as three from "three";
 import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
+import { turnedUp } from "../state/up_direction";
 
 /** View directions by key. */
 export const VIEWS: Record<string, [number, number, number]> = {
@@ -17,22 +18,46 @@ const HALF_ANGLE = (15 * Math.PI) / 180;
 export class CameraRig {
   private readonly near = new three.PerspectiveCamera((360 * HALF_ANGLE) / Math.PI);
   private readonly far = new three.OrthographicCamera();
-  private readonly controls: OrbitControls;
+  private controls: OrbitControls;
+  /** towards the camera, where no view says where it is */
+  firstOffset: readonly number[] = [-0.5, -1, 0.5];
   private aspect = 1;
   /** orthographic: lengths compare at any depth */
   private flat = false;
 
   /** onChange: the view must be drawn again; onDragEnd: the pointer was released. */
   constructor(
-    element: HTMLElement,
+    private readonly element: HTMLElement,
     private readonly onChange: () => void,
-    onDragEnd: () => void,
+    private readonly onDragEnd: () => void,
   ) {
-    this.near.up.set(0, 0, 1);
-    this.far.up.set(0, 0, 1);
-    this.controls = new OrbitControls(this.near, element);
-    this.controls.addEventListener("change", onChange);
-    this.controls.addEventListener("end", onDragEnd);
+    for (const camera of [this.near, this.far]) camera.up.set(0, 0, 1);
+    this.controls = this.madeControls();
+  }
+
+  private madeControls(): OrbitControls {
+    const controls = new OrbitControls(this.camera, this.element);
+    controls.addEventListener("change", this.onChange);
+    controls.addEventListener("end", this.onDragEnd);
+    return controls;
+  }
+
+  /** The axis of orbits, upwards in the picture: a unit vector. Position and target stay. */
+  get up(): [number, number, number] {
+    return this.near.up.toArray();
+  }
+  set up(up: readonly number[]) {
+    if (this.near.up.toArray().every((n, i) => n === up[i])) return;
+    const [offset, target] = [this.offset(), this.controls.target.clone()];
+    for (const camera of [this.near, this.far]) camera.up.set(up[0]!, up[1]!, up[2]!);
+    this.controls.dispose(); // controls read the axis only once
+    this.controls = this.madeControls();
+    this.place(target, offset);
+  }
+
+  /** From the camera to its target: a unit vector. */
+  get forward(): [number, number, number] {
+    return this.offset().normalize().negate().toArray();
   }
 
   get camera(): three.PerspectiveCamera | three.OrthographicCamera {
@@ -47,7 +72,7 @@ export class CameraRig {
   /** Fits a sphere to the view, keeping the direction. */
   fit(ball: three.Sphere): void {
     const towards = this.offset();
-    if (towards.lengthSq() === 0) towards.set(-0.5, -1, 0.5);
+    if (towards.lengthSq() === 0) towards.set(...turnedUp(this.up, this.firstOffset));
     const min = Math.min(1, this.aspect);
     this.place(ball.center, towards.normalize().multiplyScalar((1.05 * ball.radius) / (min * Math.sin(HALF_ANGLE))));
   }
@@ -55,18 +80,20 @@ export class CameraRig {
   /** Views the target along a direction. */
   along(direction: readonly [number, number, number]): void {
     const towards = new three.Vector3(...direction).multiplyScalar(-this.offset().length());
-    if (direction[2] !== 0) towards.y -= 1e-4 * towards.length(); // north up: straight down is degenerate for orbit controls
+    const isAlongUp = Math.abs(towards.dot(this.near.up)) > (1 - 1e-6) * towards.length();
+    const front = new three.Vector3(...turnedUp(this.up, [0, -1, 0]));
+    if (isAlongUp) towards.addScaledVector(front, 1e-4 * towards.length()); // away from the poles of orbits
     this.place(this.controls.target.clone(), towards);
   }
 
   /** Orbits by angles in radians: azimuth and elevation. */
   turn(around: number, up: number): void {
-    const offset = this.offset();
-    const ball = new three.Spherical().setFromVector3(new three.Vector3(offset.x, offset.z, -offset.y));
+    const upright = new three.Quaternion().setFromUnitVectors(this.near.up, new three.Vector3(0, 1, 0));
+    const ball = new three.Spherical().setFromVector3(this.offset().applyQuaternion(upright));
     ball.theta += around;
     ball.phi = Math.min(Math.max(ball.phi - up, 0.01), Math.PI - 0.01);
-    const turned = new three.Vector3().setFromSpherical(ball);
-    this.place(this.controls.target.clone(), new three.Vector3(turned.x, -turned.z, turned.y));
+    const turned = new three.Vector3().setFromSpherical(ball).applyQuaternion(upright.invert());
+    this.place(this.controls.target.clone(), turned);
   }
 
   get isFlat(): boolean {

@@ -4,7 +4,8 @@ import type { Page } from "../../shared/page";
 import type { ViewerContext } from "../context/viewer_context";
 import { VIEWS } from "../scene/camera_rig";
 import { observePart, coalesce, toggleAction } from "../context/observe";
-import { AXES, Grid } from "../state/grid";
+import { anatomicalAxes, directionAlong } from "../state/directions";
+import { AXES, Grid, type AxisNumber, type Triple } from "../state/grid";
 import { flag } from "../state/part";
 import { ScaleBar } from "../scene/scale_bar";
 
@@ -21,12 +22,12 @@ export function addCameraTool(context: ViewerContext): void {
   showEdges(context);
   observePart(history, FLAT, (flat) => (viewport.rig.isFlat = flat));
   const go = coalesce(history);
-  const addView = (name: string, keys: string[], move: () => void): void => {
+  const addView = (name: string, keys: string[], move: () => void, short?: string): void => {
     const run = (): void => {
       move();
       go({ ...history.now, view: viewport.rig.view });
     };
-    actions.add({ group: "View", name, keys, run });
+    actions.add({ group: "View", name, short, keys, run });
   };
   addView("Fit to view", ["f"], () => viewport.fit());
   addView("Orbit left", ["ArrowLeft"], () => viewport.rig.turn(-ANGLE, 0));
@@ -34,13 +35,22 @@ export function addCameraTool(context: ViewerContext): void {
   addView("Orbit up", ["ArrowUp"], () => viewport.rig.turn(0, ANGLE));
   addView("Orbit down", ["ArrowDown"], () => viewport.rig.turn(0, -ANGLE));
   for (const [key, direction] of Object.entries(VIEWS)) {
-    const sign = key === key.toLowerCase() ? "+" : "-";
-    addView(`View along ${sign}${key.toUpperCase()}`, [key], () => viewport.rig.along(direction));
+    const short = nameOfView(page, direction);
+    addView(`View ${short}`, [key], () => viewport.rig.along(direction), short);
   }
   actions.add(
     { group: "View", name: "Orthographic", keys: ["o"], ...toggleAction(context, FLAT) },
     { group: "View", name: "Bounding box", keys: ["b"], ...toggleAction(context, EDGES) },
   );
+}
+
+/** Along a direction: "from right, +X" of anatomical volumes, else "+X". */
+function nameOfView({ volume }: Page, direction: Triple): string {
+  const axis = direction.findIndex((n) => n !== 0) as AxisNumber;
+  const sign = (direction[axis] ?? 0) > 0 ? 1 : -1;
+  const along = `${sign > 0 ? "+" : "−"}${"XYZ"[axis]}`;
+  const from = directionAlong(volume.space, axis, sign > 0 ? -1 : 1);
+  return anatomicalAxes(volume.space) ? `from ${from.side}, ${along}` : along;
 }
 
 function showEdges({ page, viewport, history }: ViewerContext): void {

@@ -64,11 +64,15 @@ export function addClipTool(context: ViewerContext, tools: HTMLElement): void {
     run: () => go(now() ? null : fromHere()),
     isOn: () => now() !== null,
   });
-  for (const axis of AXES) actions.add({ group: "View", name: `Clip along ${AXIS_NAMES[axis]}`, run: along(axis) });
+  for (const axis of AXES) {
+    const short = `along ${AXIS_NAMES[axis]}`;
+    actions.add({ group: "View", name: `Clip ${short}`, short, run: along(axis) });
+  }
+  const resized = (by: number) => change(([x, y, z, share]) => [x!, y!, z!, Math.min(Math.max(share! + by, 0), 1)]);
   actions.add(
-    { group: "View", name: "Clip more", keys: [">"], run: change(([x, y, z, share]) => [x!, y!, z!, Math.max(0, share! - STEP)]) },
-    { group: "View", name: "Clip less", keys: ["<"], run: change(([x, y, z, share]) => [x!, y!, z!, Math.min(1, share! + STEP)]) },
-    { group: "View", name: "Flip the clipping plane", run: change(turned) },
+    { group: "View", name: "Clip more", short: "more", keys: [">"], run: resized(-STEP) },
+    { group: "View", name: "Clip less", short: "less", keys: ["<"], run: resized(STEP) },
+    { group: "View", name: "Flip the clipping plane", short: "Flip", run: change(turned) },
   );
 }
 

@@ -1,8 +1,10 @@
 // Orientation cube: a click on a face views the volume from there. Also slow rotation.
 import * as three from "three";
 import { html } from "../../shared/dom";
-import { facesOf, type Face } from "./face_names";
 import type { ViewerContext } from "../context/viewer_context";
+import { facesOf, type Face } from "../state/directions";
+import { dot } from "../state/grid";
+import { turnedUp, upOf } from "../state/up_direction";
 
 /** pixels */
 const HALF_EDGE = 23;
@@ -25,15 +27,19 @@ export function addOrientationCube(context: ViewerContext): void {
   overlay.append(element);
   viewport.onDraw(() => {
     const rotation = new three.Matrix4().makeRotationFromQuaternion(viewport.rig.camera.quaternion.clone().invert());
-    for (const { face, button } of faces) button.style.transform = `matrix3d(${placed(face, rotation).join(",")})`;
+    const up = upOf(page, history.now);
+    for (const { face, button } of faces) button.style.transform = `matrix3d(${placed(face, rotation, up).join(",")})`;
   });
   turning(context);
 }
 
-/** CSS transform of a face; y is down. */
-function placed({ normal }: Face, rotation: three.Matrix4): number[] {
+/** CSS transform of a face; y is down. Its letter stands upright, along an axis of space. */
+function placed({ normal }: Face, rotation: three.Matrix4, upwards: readonly number[]): number[] {
   const out = new three.Vector3(...normal);
-  const up = normal[2] === 0 ? new three.Vector3(0, 0, 1) : new three.Vector3(0, 1, 0);
+  const back = turnedUp(upwards, [0, 1, 0]);
+  const standing = facesOf("").map((face) => face.normal).filter((axis) => dot(axis, normal) === 0);
+  const height = (axis: readonly number[]): number => dot(axis, upwards) + 0.01 * dot(axis, back); // of faces seen along the axis: back
+  const up = new three.Vector3(...standing.reduce((best, axis) => (height(axis) > height(best) + 1e-9 ? axis : best)));
   const right = up.clone().cross(out);
   const columns = [right, up.clone().negate(), out, out.clone().multiplyScalar(HALF_EDGE)];
   return columns.flatMap((column, i) => {

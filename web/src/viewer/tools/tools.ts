@@ -7,12 +7,14 @@ import { Grid } from "../state/grid";
 import { addCameraTool } from "./camera_tool";
 import { VolumeTool } from "./volume_tool";
 import { MeasureTool } from "./measure_tool";
+import { addUpTool } from "./up_tool";
 import { crosshairOf, SliceTool } from "./slice_tool";
 import "./tools.css";
 
 export function addTools(context: ViewerContext): void {
   const tools = html("div", { class: "tool-bars" });
   context.overlay.append(tools);
+  addUpTool(context); // before the first fit
   addCameraTool(context);
   addOrientationCube(context);
   addClipTool(context, tools);
