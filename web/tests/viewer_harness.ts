@@ -51,14 +51,15 @@ export class Served {
   static async file(path: string): Promise<Served> {
     const folder = mkdtempSync(join(tmpdir(), "isoatlas-viewer-"));
     const name = basename(path).replace(/\..*/, "");
-    symlinkSync(path, join(folder, `${name}.nrrd`));
-    build(folder, name);
-    return Served.begin(folder, name);
+    const extension = basename(path).slice(name.length);
+    symlinkSync(path, join(folder, name + extension));
+    build(folder, name, extension);
+    return Served.begin(folder, name, [], extension);
   }
 
-  private static async begin(folder: string, name: string, options: string[] = []): Promise<Served> {
+  private static async begin(folder: string, name: string, options: string[] = [], extension = ".nrrd"): Promise<Served> {
     const token = crypto.randomUUID().replaceAll("-", "");
-    const { server, address } = await started(folder, token, [`${name}.nrrd`, ...options]);
+    const { server, address } = await started(folder, token, [name + extension, ...options]);
     const browser = await chromium.launch({ executablePath: browserFile, args: SOFTWARE_DRAWING });
     return new Served(folder, new URL(address).origin, token, `${name}.atlas`, server, browser);
   }
@@ -129,8 +130,8 @@ function made(phantom: string[]): [string, string] {
   return [folder, name];
 }
 
-function build(folder: string, name: string): void {
-  execFileSync(cli, ["build", `${name}.nrrd`, "-o", `${name}.atlas`, "--quiet"], { cwd: folder });
+function build(folder: string, name: string, extension = ".nrrd"): void {
+  execFileSync(cli, ["build", name + extension, "-o", `${name}.atlas`, "--quiet"], { cwd: folder });
 }
 
 /** Responses with meshes from now on. */

@@ -1,14 +1,15 @@
-// A slice: samples in grey, contours, and the crosshair. Along z: x to the right, y down; along y: x to the right, z up;
-// along x: y to the right, z up (as `isoatlas render --slice`).
+// A slice: samples in grey, contours, the crosshair, and where its sides look. state/slice_layout.ts says how it lies.
 import { html } from "../../shared/dom";
 import type { Contour } from "./contours";
 import { acrossAndDown, AXIS_NAMES, type AxisNumber, type Grid, type Triple } from "../state/grid";
 import type { Ruler, Texels } from "../state/ruler";
+import { sidesInWords, type SliceLayout } from "../state/slice_layout";
 import { greyOf, type Slice } from "../api/wire_samples";
 
 /** a press that moves less is a click */
 const CLICK_PIXELS = 4;
 const CROSSHAIR = "#ffd400";
+const SIDES = ["left", "right", "top", "bottom"] as const;
 
 export interface SliceViewEvents {
   /** moves the crosshair; dragging: during a drag */
@@ -16,15 +17,15 @@ export interface SliceViewEvents {
   step(axis: AxisNumber, by: number): void;
   /** selects the object that contains this sample */
   pick(voxel: Triple): void;
+  /** drags the window of grey values, in CSS pixels since the press, to the right and down; done: released */
+  dragWindow(right: number, down: number, done: boolean): void;
 }
 
-/** In pixels of the canvas: position of sample 0, 0, and pixels per length along columns and rows; row: negative: upwards. */
-interface Frame {
-  left: number;
-  top: number;
-  column: number;
-  row: number;
-}
+/**
+ * Maps lengths along columns and rows to pixels of the canvas: x = a u + c v + e, y = b u + d v + f. Each of x and y
+ * depends on one of them.
+ */
+type Frame = Record<"a" | "b" | "c" | "d" | "e" | "f", number>;
 
 /** Grey values of a slice, and their extent along columns and rows. */
 export interface Picture {
@@ -40,6 +41,8 @@ function endsOf(ruler: Ruler): { low: number; high: number } {
 
 export class SliceView {
   readonly element: HTMLElement;
+  /** the letters at the sides; their words are in the label of the canvas */
+  private readonly letters = SIDES.map((side) => html("span", { class: `side-letter ${side}`, "aria-hidden": "true" }));
   private readonly canvas = html("canvas", { tabindex: 0, role: "application" });
   private readonly caption = html("figcaption", {});
   private readonly grey = document.createElement("canvas");
@@ -53,11 +56,12 @@ export class SliceView {
   constructor(
     readonly axis: AxisNumber,
     private readonly grid: Grid,
+    private layout: SliceLayout,
     private readonly events: SliceViewEvents,
   ) {
     [this.across, this.down] = acrossAndDown(axis);
     [this.columns, this.rows] = [grid.rulers[this.across], grid.rulers[this.down]];
-    this.element = html("figure", {}, this.canvas, this.caption);
+    this.element = html("figure", {}, this.canvas, ...this.letters, this.caption);
     this.listen();
   }
 
@@ -67,18 +71,31 @@ export class SliceView {
   }
 
   /** slice: null: not loaded, the previous one stays. Returns whether the grey image has changed. */
-  draw(slice: Slice | null, contours: Contour[], cross: Triple, [black, white]: readonly [number, number]): boolean {
+  draw(
+    slice: Slice | null,
+    contours: Contour[],
+    cross: Triple,
+    [black, white]: readonly [number, number],
+    layout: SliceLayout,
+  ): boolean {
     this.cross = cross;
+    this.layout = layout;
     const changed = slice !== null && (this.painted?.slice !== slice || this.painted.black !== black || this.painted.white !== white);
     if (slice && changed) this.paint(slice, black, white);
-    const size = this.grid.size[this.axis];
-    const name = AXIS_NAMES[this.axis];
-    const coarse = slice && slice.step > 1 ? `, every ${slice.step}th sample` : "";
-    this.caption.textContent = `${name} ${cross[this.axis]} of ${size}${coarse}`;
-    const keys = "arrows move the crosshair, page up and page down change the slice, Enter picks the object";
-    this.canvas.setAttribute("aria-label", `slice ${cross[this.axis]} of ${size} along ${name}; ${keys}`);
+    this.describe(slice);
     this.compose(contours);
     return changed;
+  }
+
+  private describe(slice: Slice | null): void {
+    const { plane, sides } = this.layout;
+    const [index, size, name] = [this.cross[this.axis], this.grid.size[this.axis], AXIS_NAMES[this.axis]];
+    const coarse = slice && slice.step > 1 ? `, every ${slice.step}th sample` : "";
+    this.caption.textContent = `${plane && `${plane}, `}${name} ${index} of ${size}${coarse}`;
+    SIDES.forEach((side, i) => (this.letters[i]!.textContent = sides[side].letter));
+    const keys = "arrows move the crosshair, page up and page down change the slice, Enter picks the object";
+    const what = `${plane || "slice"} ${plane && "slice "}${index} of ${size} along ${name}`;
+    this.canvas.setAttribute("aria-label", `${what}; ${sidesInWords(this.layout)}; ${keys}`);
   }
 
   private paint(slice: Slice, black: number, white: number): void {
@@ -93,11 +110,13 @@ export class SliceView {
   /** Centres the slice on the canvas, with correct proportions. */
   private get frame(): Frame {
     const { width, height } = this.canvas;
-    const [across, down] = [endsOf(this.columns), endsOf(this.rows)];
-    const scale = Math.min(width / (across.high - across.low), height / (down.high - down.low));
-    const left = (width - scale * (across.low + across.high)) / 2;
-    const row = this.axis === 2 ? scale : -scale;
-    return { left, top: (height - row * (down.low + down.high)) / 2, column: scale, row };
+    const { right, down } = this.layout;
+    const [across, along] = [endsOf(this.grid.rulers[right.axis]), endsOf(this.grid.rulers[down.axis])];
+    const scale = Math.min(width / (across.high - across.low), height / (along.high - along.low));
+    const [x, y] = [right.sign * scale, down.sign * scale];
+    const e = (width - x * (across.low + across.high)) / 2;
+    const f = (height - y * (along.low + along.high)) / 2;
+    return right.axis === this.across ? { a: x, b: 0, c: 0, d: y, e, f } : { a: 0, b: y, c: x, d: 0, e, f };
   }
 
   private compose(contours: Contour[]): void {
@@ -114,11 +133,12 @@ export class SliceView {
     this.drawCrosshair(pen, frame, ratio);
   }
 
-  private drawGrey(pen: CanvasRenderingContext2D, { left, top, column, row }: Frame, { canvas, across, down }: Picture): void {
-    const wide = (column * (across.high - across.low)) / canvas.width;
-    const high = (row * (down.high - down.low)) / canvas.height;
-    pen.imageSmoothingEnabled = wide < 3; // large pixels stay sharp
-    pen.setTransform(wide, 0, 0, high, left + column * across.low, top + row * down.low);
+  private drawGrey(pen: CanvasRenderingContext2D, { a, b, c, d, e, f }: Frame, { canvas, across, down }: Picture): void {
+    const wide = (across.high - across.low) / canvas.width;
+    const high = (down.high - down.low) / canvas.height;
+    pen.imageSmoothingEnabled = Math.abs((a + b) * wide) < 3; // large pixels stay sharp
+    const corner = [a * across.low + c * down.low + e, b * across.low + d * down.low + f] as const;
+    pen.setTransform(a * wide, b * wide, c * high, d * high, ...corner);
     pen.drawImage(canvas, 0, 0);
     pen.setTransform(1, 0, 0, 1, 0, 0);
   }
@@ -126,15 +146,19 @@ export class SliceView {
   /** With a dark outline, for contrast on any grey. */
   private drawContour(
     pen: CanvasRenderingContext2D,
-    { left, top, column, row }: Frame,
+    { a, b, c, d, e, f }: Frame,
     pieces: Float32Array,
     colour: string,
     ratio: number,
   ): void {
     const path = new Path2D();
+    const at = (i: number): [number, number] => {
+      const [u, v] = [pieces[i]!, pieces[i + 1]!];
+      return [a * u + c * v + e, b * u + d * v + f];
+    };
     for (let i = 0; i < pieces.length; i += 4) {
-      path.moveTo(left + column * (pieces[i] as number), top + row * (pieces[i + 1] as number));
-      path.lineTo(left + column * (pieces[i + 2] as number), top + row * (pieces[i + 3] as number));
+      path.moveTo(...at(i));
+      path.lineTo(...at(i + 2));
     }
     pen.lineCap = "round";
     [pen.lineWidth, pen.strokeStyle] = [3.5 * ratio, "#0008"];
@@ -143,12 +167,13 @@ export class SliceView {
     pen.stroke(path);
   }
 
-  private drawCrosshair(pen: CanvasRenderingContext2D, { left, top, column, row }: Frame, ratio: number): void {
-    const x = left + column * this.columns.length(this.cross[this.across]);
-    const y = top + row * this.rows.length(this.cross[this.down]);
+  private drawCrosshair(pen: CanvasRenderingContext2D, { a, b, c, d, e, f }: Frame, ratio: number): void {
+    const at = (u: number, v: number): [number, number] => [a * u + c * v + e, b * u + d * v + f];
+    const [x, y] = at(this.columns.length(this.cross[this.across]), this.rows.length(this.cross[this.down]));
     const gap = 6 * ratio;
-    const right = left + column * this.columns.length(this.columns.size - 1);
-    const [high, low] = [top, top + row * this.rows.length(this.rows.size - 1)].sort((p, q) => p - q) as [number, number];
+    const ends = [at(0, 0), at(this.columns.length(this.columns.size - 1), this.rows.length(this.rows.size - 1))] as const;
+    const [left, right] = [ends[0][0], ends[1][0]].sort((p, q) => p - q) as [number, number];
+    const [high, low] = [ends[0][1], ends[1][1]].sort((p, q) => p - q) as [number, number];
     const path = new Path2D();
     for (const [x0, y0, x1, y1] of [
       [left, y, x - gap, y],
@@ -168,16 +193,19 @@ export class SliceView {
   private voxelAt(event: MouseEvent): Triple {
     const box = this.canvas.getBoundingClientRect();
     const ratio = this.canvas.width / box.width;
-    const { left, top, column, row } = this.frame;
+    const { a, b, c, d, e, f } = this.frame;
+    const [x, y] = [(event.clientX - box.left) * ratio - e, (event.clientY - box.top) * ratio - f];
+    const [u, v] = a !== 0 ? [x / a, y / d] : [y / b, x / c];
     const voxel: Triple = [...this.cross];
-    voxel[this.across] = this.columns.sample(((event.clientX - box.left) * ratio - left) / column);
-    voxel[this.down] = this.rows.sample(((event.clientY - box.top) * ratio - top) / row);
+    voxel[this.across] = this.columns.sample(u);
+    voxel[this.down] = this.rows.sample(v);
     return this.grid.inside(voxel);
   }
 
   private listen(): void {
     let pressed: { x: number; y: number; voxel: Triple; far: boolean } | null = null;
     this.canvas.addEventListener("pointerdown", (event) => {
+      if (pressesWindow(event)) return this.followWindow(event);
       if (event.button !== 0) return;
       this.canvas.setPointerCapture(event.pointerId);
       pressed = { x: event.clientX, y: event.clientY, voxel: this.voxelAt(event), far: false };
@@ -195,6 +223,7 @@ export class SliceView {
       if (!pressed.far) this.events.pick(voxel);
       pressed = null;
     });
+    this.canvas.addEventListener("contextmenu", (event) => event.preventDefault()); // the right button drags the window
     this.canvas.addEventListener(
       "wheel",
       (event) => {
@@ -206,13 +235,28 @@ export class SliceView {
     this.canvas.addEventListener("keydown", (event) => this.press(event));
   }
 
+  /** Drags the window of grey values until the button is released. */
+  private followWindow(start: PointerEvent): void {
+    start.preventDefault(); // no scrolling with the middle button
+    this.canvas.setPointerCapture(start.pointerId);
+    const drag = (event: PointerEvent): void =>
+      this.events.dragWindow(event.clientX - start.clientX, event.clientY - start.clientY, event.type !== "pointermove");
+    const end = (event: PointerEvent): void => {
+      this.canvas.removeEventListener("pointermove", drag);
+      for (const type of ENDS) this.canvas.removeEventListener(type, end);
+      drag(event);
+    };
+    this.canvas.addEventListener("pointermove", drag);
+    for (const type of ENDS) this.canvas.addEventListener(type, end);
+  }
+
   private press(event: KeyboardEvent): void {
-    const upwards = this.axis === 2 ? -1 : 1;
+    const { right, down } = this.layout;
     const steps: Record<string, [AxisNumber, number]> = {
-      ArrowLeft: [this.across, -1],
-      ArrowRight: [this.across, 1],
-      ArrowUp: [this.down, upwards],
-      ArrowDown: [this.down, -upwards],
+      ArrowLeft: [right.axis, -right.sign],
+      ArrowRight: [right.axis, right.sign],
+      ArrowUp: [down.axis, -down.sign],
+      ArrowDown: [down.axis, down.sign],
       PageUp: [this.axis, 1],
       PageDown: [this.axis, -1],
     };
@@ -223,4 +267,11 @@ export class SliceView {
     if (step) this.events.step(step[0], event.shiftKey ? 10 * step[1] : step[1]);
     else this.events.pick(this.cross);
   }
+}
+
+const ENDS = ["pointerup", "pointercancel"] as const;
+
+/** The right or the middle button, or the left one with Ctrl or Alt. */
+function pressesWindow({ button, ctrlKey, altKey }: PointerEvent): boolean {
+  return button === 1 || button === 2 || (button === 0 && (ctrlKey || altKey));
 }

@@ -6,15 +6,19 @@ import { Contours } from "../scene/contours";
 import type { ViewerContext } from "../context/viewer_context";
 import { observePart, coalesce, toggleAction } from "../context/observe";
 import { AXES, AXIS_NAMES, Grid, type AxisNumber, type Triple } from "../state/grid";
-import { greyBar } from "./grey_range_bar";
+import { GreyRangeBar, greyOfState } from "./grey_range_bar";
 import { LocateBar } from "./locate_bar";
 import { CrosshairLines } from "../scene/crosshair_lines";
 import { SlicePlanes } from "../scene/slice_planes";
-import { CROSSHAIR, GREY, greyRange, middleOf, PLANES, SLICES } from "../state/slice_state";
+import { sliceLayout, type SliceLayout } from "../state/slice_layout";
+import { CROSSHAIR, GREY, middleOf, PLANES, SLICES } from "../state/slice_state";
 import { SliceCache } from "../api/slice_cache";
 import { shownQuantity } from "../../shared/units";
 import { SliceView } from "../scene/slice_view";
 import { UNIT } from "../state/unit";
+import { UP, upOf } from "../state/up_direction";
+import { draggedWindow, type Window } from "../state/window_presets";
+import type { Part } from "../state/part";
 import type { State } from "../state/state";
 import { valueAt } from "../api/wire_samples";
 
@@ -40,6 +44,9 @@ export class SliceTool {
   private readonly planes: SlicePlanes;
   private readonly mark: CrosshairLines;
   private readonly locateBar: LocateBar;
+  private readonly greyBar: GreyRangeBar;
+  /** at the start of a drag of the window */
+  private windowBefore: Window | null = null;
   private readonly readout = html("output", { class: "at-crosshair", "aria-live": "polite" });
   private readonly element: HTMLElement;
   private readonly coalesce: (state: State) => void;
@@ -58,15 +65,17 @@ export class SliceTool {
     this.planes = new SlicePlanes(viewport, this.grid);
     this.mark = new CrosshairLines(viewport, this.grid);
     this.locateBar = new LocateBar(context);
+    this.greyBar = new GreyRangeBar(context);
     this.views = AXES.map(
       (axis) =>
-        new SliceView(axis, this.grid, {
+        new SliceView(axis, this.grid, this.layoutOf(axis), {
           move: (voxel, dragging) => this.move(voxel, dragging),
           step: (axis, by) => this.step(axis, by),
           pick: (voxel) => this.pick(voxel),
+          dragWindow: (right, down, done) => this.dragWindow(right, down, done),
         }),
     );
-    const foot = html("div", { class: "foot" }, this.readout, this.locateBar.element, greyBar(context));
+    const foot = html("div", { class: "foot" }, this.readout, this.locateBar.element, this.greyBar.element);
     this.element = html(
       "section",
       { class: "slices", "aria-label": "slices", hidden: true },
@@ -89,6 +98,18 @@ export class SliceTool {
     this.coalesce(CROSSHAIR.with(this.context.history.now, this.grid.inside(voxel)));
   }
 
+  private dragWindow(right: number, down: number, done: boolean): void {
+    if (!this.windowBefore && right === 0 && down === 0) return; // a click
+    this.windowBefore ??= this.greyBar.window;
+    this.greyBar.setWindow(draggedWindow(this.windowBefore, right, down), !done);
+    if (done) this.windowBefore = null;
+  }
+
+  private layoutOf(axis: AxisNumber): SliceLayout {
+    const { page, history } = this.context;
+    return sliceLayout(axis, this.grid, page.volume.space, upOf(page, history.now));
+  }
+
   private pick(voxel: Triple): void {
     if (!this.takeForMeasure(this.grid.place(voxel))) void this.locateBar.pick(voxel);
   }
@@ -101,9 +122,7 @@ export class SliceTool {
       if (on) this.locateBar.update(crosshairOf(this.context));
       this.redraw();
     });
-    observePart(history, PLANES, () => this.redraw());
-    observePart(history, GREY, () => this.redraw());
-    observePart(history, UNIT, () => this.redraw());
+    for (const part of [PLANES, GREY, UNIT, UP]) observePart<unknown>(history, part as Part<unknown>, () => this.redraw());
     observePart(history, CROSSHAIR, () => {
       this.redraw();
       if (SLICES.of(history.now)) this.locateBar.update(crosshairOf(this.context));
@@ -136,11 +155,11 @@ export class SliceTool {
     const cross = crosshairOf(this.context);
     this.mark.show(open || inPicture ? cross : null);
     if (!open && !inPicture) return this.planes.hide();
-    const grey = (GREY.of(history.now) as [number, number] | null) ?? greyRange(page);
+    const grey = greyOfState(page, history.now);
     const slices = AXES.map((axis) => this.store.get(axis, cross[axis]));
     this.views.forEach((view, axis) => {
       const contours = open ? this.contours.on(view.axis, cross[view.axis]) : [];
-      const changed = view.draw(slices[axis] ?? null, contours, cross, grey);
+      const changed = view.draw(slices[axis] ?? null, contours, cross, grey, this.layoutOf(view.axis));
       if (inPicture && view.picture) this.planes.show(view.axis, view.picture, cross[view.axis], changed);
     });
     if (!inPicture) this.planes.hide();
