@@ -73,7 +73,7 @@ export const MENU: Record<Group, Section[]> = {
   View: [
     { title: "Camera", items: [["Fit", "fit"], ["Orthographic", "box"], ["Rotate", "turn"]] },
     { title: "Standard views", items: [["View", "axis"]] },
-    { title: "Up direction", items: [["Up direction", "up"], ["Roll left by 90", "undo"], ["Roll right by 90", "redo"]] },
+    { title: "Up direction", items: [["Up direction", "up"], ["Roll left 90", "undo"], ["Roll right 90", "redo"]] },
     { title: "Clipping", items: [["Clip", "clip"], ["Flip", "turn"]] },
     { title: "Display", items: [["Volume rendering", "fog"], ["Bounding box", "box"], ["Unit", "ruler"], ["Theme", "theme"]] },
   ],

@@ -65,11 +65,19 @@ function buttonOf(actions: Actions, action: Action, sign: SVGSVGElement, done: (
     done();
     actions.run(action);
   };
-  const parts = [sign, html("span", {}, action.short ?? action.name), html("kbd", {}, signsOf(action))];
-  const button = html("button", { type: "button", "aria-label": action.short && action.name, click: run }, ...parts);
+  const parts = [sign, html("span", {}, ...shortened(action)), html("kbd", {}, signsOf(action))];
+  const button = html("button", { type: "button", click: run }, ...parts);
   if (action.isOn) button.setAttribute("aria-pressed", String(action.isOn()));
   markBlocked(button, actions.whyBlocked(action));
   return button;
+}
+
+/** Its name; what is left out of a short one is there for screen readers. */
+function shortened({ name, short }: Action): (Node | string)[] {
+  const at = short === undefined ? -1 : name.indexOf(short);
+  if (short === undefined || at < 0) return [name];
+  const unseen = (text: string): Node => html("span", { class: "unseen" }, text);
+  return [unseen(name.slice(0, at)), short, unseen(name.slice(at + short.length))];
 }
 
 export function help(actions: Actions): HTMLDialogElement {

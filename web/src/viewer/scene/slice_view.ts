@@ -91,7 +91,7 @@ export class SliceView {
     const { plane, sides } = this.layout;
     const [index, size, name] = [this.cross[this.axis], this.grid.size[this.axis], AXIS_NAMES[this.axis]];
     const coarse = slice && slice.step > 1 ? `, every ${slice.step}th sample` : "";
-    this.caption.textContent = `${plane && `${plane}, `}${name} ${index} of ${size}${coarse}`;
+    this.caption.replaceChildren(`${plane && `${plane}, `}${name} ${index}`, html("span", {}, ` of ${size}${coarse}`));
     SIDES.forEach((side, i) => (this.letters[i]!.textContent = sides[side].letter));
     const keys = "arrows move the crosshair, page up and page down change the slice, Enter picks the object";
     const what = `${plane || "slice"} ${plane && "slice "}${index} of ${size} along ${name}`;

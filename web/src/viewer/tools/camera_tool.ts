@@ -36,7 +36,7 @@ export function addCameraTool(context: ViewerContext): void {
   addView("Orbit down", ["ArrowDown"], () => viewport.rig.turn(0, -ANGLE));
   for (const [key, direction] of Object.entries(VIEWS)) {
     const short = nameOfView(page, direction);
-    addView(`View ${short}`, [key], () => viewport.rig.along(direction), short);
+    addView(`View ${anatomicalAxes(page.volume.space) ? "from " : ""}${short}`, [key], () => viewport.rig.along(direction), short);
   }
   actions.add(
     { group: "View", name: "Orthographic", keys: ["o"], ...toggleAction(context, FLAT) },
@@ -44,13 +44,13 @@ export function addCameraTool(context: ViewerContext): void {
   );
 }
 
-/** Along a direction: "from right, +X" of anatomical volumes, else "+X". */
+/** Along a direction: "right, +X" of anatomical volumes, from that side; else "+X". */
 function nameOfView({ volume }: Page, direction: Triple): string {
   const axis = direction.findIndex((n) => n !== 0) as AxisNumber;
   const sign = (direction[axis] ?? 0) > 0 ? 1 : -1;
   const along = `${sign > 0 ? "+" : "−"}${"XYZ"[axis]}`;
   const from = directionAlong(volume.space, axis, sign > 0 ? -1 : 1);
-  return anatomicalAxes(volume.space) ? `from ${from.side}, ${along}` : along;
+  return anatomicalAxes(volume.space) ? `${from.side}, ${along}` : along;
 }
 
 function showEdges({ page, viewport, history }: ViewerContext): void {

@@ -35,9 +35,9 @@ export function addUpTool({ page, viewport, history, actions }: UpContext): void
   }
   actions.add(
     { group: "View", name: "Flip the up direction", keys: ["u"], run: () => choose(now().map((n) => 0 - n) as Triple)() },
-    { group: "View", name: "Roll left by 90°", short: "Roll left 90°", keys: ["Q"], run: roll(-QUARTER) },
-    { group: "View", name: "Roll right by 90°", short: "Roll right 90°", keys: ["R"], run: roll(QUARTER) },
-    { group: "View", name: "Roll left by 5°", keys: ["q"], run: roll(-STEP) },
-    { group: "View", name: "Roll right by 5°", keys: ["r"], run: roll(STEP) },
+    { group: "View", name: "Roll left 90°", short: "Roll left 90°", keys: ["Q"], run: roll(-QUARTER) },
+    { group: "View", name: "Roll right 90°", short: "Roll right 90°", keys: ["R"], run: roll(QUARTER) },
+    { group: "View", name: "Roll left 5°", keys: ["q"], run: roll(-STEP) },
+    { group: "View", name: "Roll right 5°", keys: ["r"], run: roll(STEP) },
   );
 }
