@@ -214,7 +214,7 @@ describe.skipIf(!canServe || !existsSync(lung))("the window of slices of a CT", 
   });
 
   it("has no part beyond the edge of the screen, however small", async () => {
-    for (const [width, height] of [[1400, 900], [800, 600], [390, 844]] as const) {
+    for (const [width, height] of [[1400, 900], [1000, 700], [800, 600], [390, 844]] as const) {
       const { tab } = await served.open("#scene=&selected=-1&slices=1", { viewport: { width, height } });
       await slicesLoaded(tab);
       const [right, left] = await tab.evaluate(() => {
@@ -226,7 +226,14 @@ describe.skipIf(!canServe || !existsSync(lung))("the window of slices of a CT", 
       expect(right, `${width}`).toBeLessThanOrEqual(width);
       expect(left, `${width}`).toBeGreaterThanOrEqual(0);
       const picture = (await tab.locator(".slices canvas").first().boundingBox())!;
-      expect(picture.height, `${width}`).toBeGreaterThan(80);
+      expect(picture.height, `${width}`).toBeGreaterThan(100);
+      for (const menu of await tab.locator(".menus summary").all()) {
+        await menu.click();
+        const open = (await tab.locator(".menus details[open] .box").boundingBox())!;
+        expect(open.x, `${width}`).toBeGreaterThanOrEqual(0);
+        expect(open.x + open.width, `${width}`).toBeLessThanOrEqual(width);
+        await tab.keyboard.press("Escape");
+      }
       await tab.close();
     }
   });
