@@ -102,10 +102,10 @@ class Help(CliTest):
     def test_what_cannot_be_parsed_is_said_in_our_words(self):
         cases = [(["extract", "-o", "x.ply"], "needs VOLUME"), (["extract", "x.nrrd"], "needs --output FILE"), (["objects", "x.nrrd", "y.nrrd"], "y.nrrd"),
                  (["objects", "x.nrrd", "--both", "--cavities"], "exclude each other"),
-                 (["objects", "x.nrrd", "--threads", "99999"], "--threads"), (["verify", "x.nrrd", "--levels", "many"], "--levels")]
+                 (["objects", "x.nrrd", "--threads", "99999"], "99999 is not from"), (["view", "x.nrrd", "--port", "0"], "0 is not from 1 to 65535"), (["verify", "x.nrrd", "--levels", "many"], "--levels")]
         for words, says in cases:
             error = self.run_error(2, *words, says=says)
-            for raw in ("Could not convert", "required but received", "required T missing", "were not expected", "was not expected", " excludes "):
+            for raw in ("Could not convert", "required but received", "required T missing", "were not expected", "was not expected", " excludes ", "not in range"):
                 self.assertNotIn(raw, error["message"], words)
         self.assertIn("--tau has no value", self.start(["objects", "x.nrrd", "--tau"]).stderr)
 

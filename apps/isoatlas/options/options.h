@@ -1,6 +1,7 @@
 // Options of verbs that have many.
 #pragma once
 
+#include <fmt/format.h>
 #include <CLI/CLI.hpp>
 
 #include "options/arguments.h"
@@ -12,7 +13,10 @@ namespace isoatlas::cli {
 /// The range appears in the error message, not in the help.
 template <class T>
 CLI::Validator in_range(T low, T high) {
-    return CLI::Range(low, high).description("");
+    const auto say = [range = CLI::Range(low, high), low, high](std::string& word) {
+        return range(word).empty() ? std::string() : fmt::format("{} is not from {} to {}", word, low, high);
+    };
+    return {say, ""};
 }
 
 template <class T>
