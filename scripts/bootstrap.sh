@@ -1,7 +1,9 @@
 #!/usr/bin/env bash
-# Installs the Debian packages that a step needs and that are missing, and says why. Nothing else is touched.
-#   scripts/bootstrap.sh [--list] GROUP...     groups: demo test bench fuzz package
-# Exit 0: all there. 2: something is missing and cannot be installed from here (the command to run is printed).
+# Installs the Debian packages that a step needs and that are missing. Before: which, why, how many with those they bring, megabytes to
+# download and on disk. On a terminal it asks. Nothing else is touched.
+#   scripts/bootstrap.sh [--list] [--yes] GROUP...     groups: demo test bench fuzz package
+# Exit 0: all there. 2: something is missing and was not installed (the command that does it is printed).
+# ISOATLAS_YES=1, or CI in the environment: as --yes, nothing is asked.
 # ISOATLAS_NO_BOOTSTRAP=1 skips the check, for systems whose libraries come from elsewhere.
 set -euo pipefail
 
@@ -43,6 +45,7 @@ test|chromium|opens the page
 test|python3-pil|independent reader of the pictures we write
 test|python3-h5py|independent reader of stores
 test|python3-networkx|independent reader of the trees we write
+test|debootstrap|a bare Debian, where the package is installed
 test|dpkg-dev|finds what a Debian package depends on
 test|file|tells CPack what to strip
 test|zsh|completion of its users
@@ -63,10 +66,13 @@ TABLE
 }
 
 list=no
+yes=${ISOATLAS_YES:-}
+[[ ${CI:-false} == false ]] || yes=1
 groups=()
 for argument in "$@"; do
     case $argument in
         --list) list=yes ;;
+        --yes) yes=1 ;;
         demo) groups+=(demo) ;;
         test | bench | fuzz | package) groups+=(demo "$argument") ;;
         *)
@@ -99,20 +105,26 @@ if ! command -v dpkg-query >/dev/null || ! command -v apt-get >/dev/null; then
     exit 2
 fi
 
-declare -A installed
-while read -r status package; do
-    if [[ $status == installed ]]; then installed[${package%%:*}]=1; fi
-done < <(dpkg-query -W -f='${db:Status-Status} ${Package}\n' "${wanted[@]}" 2>/dev/null || true)
-if command -v npm >/dev/null; then installed[nodejs]=1 installed[npm]=1; fi  # Node.js from elsewhere brings its own npm
-missing=()
-for package in "${wanted[@]}"; do
-    [[ -n ${installed[$package]:-} ]] || missing+=("$package")
-done
+# find_missing: those of `wanted` that are not installed, in `missing`.
+find_missing() {
+    local -A installed=()
+    local status package
+    while read -r status package; do
+        if [[ $status == installed ]]; then installed[${package%%:*}]=1; fi
+    done < <(dpkg-query -W -f='${db:Status-Status} ${Package}\n' "${wanted[@]}" 2>/dev/null || true)
+    if command -v npm >/dev/null; then installed[nodejs]=1 installed[npm]=1; fi  # Node.js from elsewhere brings its own npm
+    missing=()
+    for package in "${wanted[@]}"; do
+        [[ -n ${installed[$package]:-} ]] || missing+=("$package")
+    done
+}
+find_missing
 [[ ${#missing[@]} -gt 0 ]] || exit 0
 
 echo "isoatlas needs ${#missing[@]} Debian package(s) that are not installed:"
 for package in "${missing[@]}"; do printf '  %-22s %s\n' "$package" "${why[$package]}"; done
 
+by_hand="apt-get update && apt-get install --yes --no-install-recommends ${missing[*]}"
 as_root=()
 if [[ $(id -u) != 0 ]]; then
     # A password can only be asked for on a terminal.
@@ -120,31 +132,80 @@ if [[ $(id -u) != 0 ]]; then
         as_root=(sudo)
     else
         echo "bootstrap: neither root nor sudo here. As root, run this and start again:" >&2
-        echo "  apt-get update && apt-get install --yes --no-install-recommends ${missing[*]}" >&2
+        echo "  $by_hand" >&2
         exit 2
     fi
 fi
 
 # sudo drops the environment; the proxies have to come along.
-settings=(DEBIAN_FRONTEND=noninteractive)
+settings=(DEBIAN_FRONTEND=noninteractive LC_ALL=C)
 for name in http_proxy https_proxy no_proxy HTTP_PROXY HTTPS_PROXY NO_PROXY; do
     [[ -z ${!name:-} ]] || settings+=("$name=${!name}")
 done
-apt() { "${as_root[@]}" env "${settings[@]}" apt-get -q -o Dpkg::Use-Pty=0 "$@"; }
-log=$(mktemp)
-trap 'rm -f "$log"' EXIT
-attempt() {
-    echo "+ apt-get $*"
-    apt "$@" >"$log" 2>&1
+here=$(cd "$(dirname "$0")/.." && pwd)
+mkdir -p "$here/build"
+log=$here/build/bootstrap.log
+: >"$log"
+packages=0 download=""
+
+# apt ARGUMENT...: runs it as root, with its progress on the standard output and everything else in the log. The descriptor of the progress
+# is opened behind sudo, which closes all but three.
+apt() {
+    echo "+ apt-get $*" | tee -a "$log"
+    # shellcheck disable=SC2016
+    "${as_root[@]}" env "${settings[@]}" sh -c 'exec apt-get -q -o Dpkg::Use-Pty=0 -o APT::Status-Fd=3 "$@" 3>&1 >&2' sh "$@" 2>>"$log" </dev/null |
+        "$here/scripts/apt_progress.sh" "$packages" "$download"
 }
-# The package lists may be absent (fresh image) or stale (404): then they are fetched and the installation is tried again.
-if ! apt-get -q -s install --no-install-recommends "${missing[@]}" >/dev/null 2>&1 ||
-    ! attempt install --yes --no-install-recommends "${missing[@]}"; then
-    attempt update || { cat "$log" >&2 && echo "bootstrap: 'apt-get update' failed; check the network and /etc/apt" >&2 && exit 2; }
-    attempt install --yes --no-install-recommends "${missing[@]}" || {
-        tail -n 40 "$log" >&2
-        echo "bootstrap: the packages could not be installed; the message of apt-get is above" >&2
-        exit 2
-    }
+
+failed() {
+    tail -n 25 "$log" >&2
+    echo "bootstrap: $1; the message of apt-get is above, all that it said in $log" >&2
+    echo "           $2, then start again, or run as root:" >&2
+    echo "  $by_hand" >&2
+    exit 2
+}
+
+update_lists() {
+    packages=0 download=""
+    apt update || failed "the package lists could not be fetched" "Check the network and /etc/apt"
+}
+
+# How many packages come, and their sizes. With --yes --print-uris apt-get says it and does nothing. False: it does not know them all, for
+# want of lists (it then takes `g++` for a pattern).
+look_ahead() {
+    local told
+    told=$(LC_ALL=C apt-get -q --yes --print-uris -o Debug::NoLocking=true install --no-install-recommends "${missing[@]}" 2>>"$log") || return 1
+    packages=$(sed -nE 's/^([0-9]+) upgraded, ([0-9]+) newly installed.*/\1 + \2/p' <<<"$told")
+    packages=$((packages))
+    ((packages >= ${#missing[@]})) || return 1
+    download=$(sed -nE 's|^Need to get ([0-9.,]+ [kMGT]?B).*|\1|p' <<<"$told")
+    disk=$(sed -nE 's/^After this operation, ([0-9.,]+ [kMGT]?B) of additional disk space.*/\1/p' <<<"$told")
+    echo "In all $packages packages with those that they need: ${download:-0 B} to download, ${disk:-0 B} more on the disk."
+}
+
+echo "asking apt-get what they bring along ..."
+if ! look_ahead; then
+    echo "the package lists are missing or too old; they come first"
+    update_lists
+    look_ahead || failed "apt-get does not have all of these packages" "Debian 12 has them: see that /etc/apt names its main archive"
 fi
-echo "installed: ${missing[*]}"
+if [[ -z $yes && -t 0 && -t 1 ]]; then
+    read -r -p "Install them? [Y/n] " answer || answer=n
+    if [[ ! ${answer:-y} =~ ^[Yy] ]]; then
+        echo "bootstrap: nothing was installed. As root, the same by hand, then start again:" >&2
+        echo "  $by_hand" >&2
+        exit 2
+    fi
+fi
+before=$SECONDS
+install() { apt install --yes --no-install-recommends "${missing[@]}"; }
+# A package that is not found may have been replaced by a newer one: then the lists are fetched and it is tried again.
+if ! install; then
+    echo "that failed; once more with new package lists"
+    update_lists
+    find_missing
+    if ! { look_ahead && install; }; then failed "the packages could not be installed" "Do what it asks for"; fi
+fi
+find_missing
+[[ ${#missing[@]} == 0 ]] || failed "apt-get ended without an error, but ${missing[*]} are missing" "See what it says"
+echo "installed $packages packages in $((SECONDS - before)) s"
