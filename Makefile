@@ -5,9 +5,11 @@
 SHELL := /bin/bash
 .SHELLFLAGS := -euo pipefail -c
 .DEFAULT_GOAL := help
+# Where make was called: with -C that is not here, and relative paths are of there.
+export CALLER := $(PWD)
 export VOLUME ARGS PREFIX SECONDS_PER_TARGET
 
-.PHONY: help demo quick test check build install package format lint bench memory studies table131 fuzz asan tsan coverage clean
+.PHONY: help demo quick test check build install package format lint bench memory studies table131 fuzz asan tsan coverage clean shared_data
 
 help: ## this list
 	@awk -F ':.*## ' '/^[a-z0-9]+:.*## / { printf "  make %-10s %s\n", $$1, $$2 }' Makefile
@@ -25,8 +27,8 @@ build: ## the command line and the library, optimised: build/release/bin/isoatla
 	@scripts/bootstrap.sh demo
 	@scripts/build.sh release
 
-install: build ## install to PREFIX (default /usr/local)
-	@cmake --install build/release --prefix "$${PREFIX:-/usr/local}"
+install: ## build, install to PREFIX (default /usr/local; as a user: make install PREFIX=~/.local)
+	@scripts/install.sh
 
 package: ## Debian packages and tarballs of the command line and the library: build/release/packages
 	@scripts/package.sh
@@ -40,18 +42,21 @@ lint: ## clang-tidy over src and apps
 	@cmake --preset dev >/dev/null
 	@scripts/lint.py
 
-bench: ## measure: analysis against a sort, surfaces and stores against Flying Edges, pictures against VTK's ray caster; writes build/bench/*.json and docs/performance.md
+bench: ## measure: analysis against a sort, surfaces and stores against Flying Edges, pictures against VTK's ray caster; writes build/bench/*.json and docs/performance.md (without ../shared/data: phantoms alone)
 	@scripts/bench.sh
 
 memory: build ## does --memory hold? volumes of all kinds, sizes and budgets; writes docs/memory.md
 	@mkdir -p build/bench
 	@/usr/bin/python3 bench/memory/matrix.py build/release/bin/isoatlas -o build/bench/memory.json --page docs/memory.md
 
-studies: build ## run the commands of docs/studies on the volumes of ../shared/data and remake their pictures
+studies: shared_data build ## run the commands of docs/studies and remake their pictures (needs ../shared/data)
 	@for page in docs/studies/[a-z]*.md; do ISOATLAS_CLI=$$PWD/build/release/bin/isoatlas python3 -B tests/docs/blocks.py pictures $$page; done
 
-table131: build ## the dissertation's table 13.1 beside ours; writes docs/performance.md
+table131: shared_data build ## the dissertation's table 13.1 beside ours; writes docs/performance.md (needs ../shared/data)
 	@python3 bench/table131.py build/release/bin/isoatlas ../shared/data
+
+shared_data:
+	@test -d ../shared/data || { echo "This needs the volumes of ../shared/data, a folder beside the checkout that is no part of the repository. Next: make bench and make test do without" >&2; exit 2; }
 
 fuzz: ## every fuzz target for SECONDS_PER_TARGET (60)
 	@scripts/fuzz.sh

@@ -4,24 +4,33 @@
 #   ARGS="..."    options for reading it, e.g. ARGS="--dims 256 256 128 --type uint8" for RAW files
 set -euo pipefail
 cd "$(dirname "$0")/.."
+. scripts/caller.sh
 
 surfaces=5   # of that many objects
-out=demo
+here=""      # before paths that are printed: nothing, if the user is in this folder
+[[ $CALLER -ef . ]] || here=$PWD/
+out=${here}demo
 read -r -a options <<<"${ARGS:-}"
 
 say() { printf '\n== %s\n' "$*"; }
 
 volume=${VOLUME:-}
-if [[ -n $volume && ! -e $volume ]]; then
-    echo "demo: $volume does not exist; give the path of a volume with VOLUME=" >&2
-    exit 2
+if [[ -n $volume ]]; then
+    meant=$(as_meant "$volume")
+    if [[ -e $meant && ! $meant -ef $volume ]]; then volume=$meant; fi  # called from elsewhere
+    if [[ ! -e $volume ]]; then
+        looked="is no $meant"
+        [[ -z $here || $volume == [/~]* ]] || looked+=", and no $PWD/$volume"
+        echo "demo: there $looked (expected a volume). Next: VOLUME=path, from the folder where make is called" >&2
+        exit 2
+    fi
 fi
 scripts/bootstrap.sh demo
 if [[ ! -x build/release/bin/isoatlas ]]; then
     say "building (about 6 minutes of processor time, 3 on two processors)"
 fi
 scripts/build.sh release isoatlas_cli
-isoatlas=build/release/bin/isoatlas
+isoatlas=${here}build/release/bin/isoatlas
 
 # An earlier demonstration stays whole until this one is.
 before=$out.before
@@ -52,20 +61,22 @@ say "what is in $volume?"
 # One object a line in the JSON document; a slice has curves, which PLY does not hold.
 extension=ply
 if "$isoatlas" info "$volume" "${options[@]}" --json --quiet | tr -d ' \n' | grep -q '"rank":2'; then extension=vtp; fi
-say "writing a surface for each of the first $surfaces, and proving that it is closed, manifold and oriented"
-number=0
-while read -r object; do
-    number=$object
+mapfile -t numbers < <(sed -nE 's/.*"number": ?([0-9]+),.*"best_tau".*/\1/p' "$out/objects.json")
+if [[ ${#numbers[@]} == 0 ]]; then
+    echo "nothing in this volume rises above the noise; $isoatlas objects $volume --all lists everything"
+else
+    which="each of the first ${#numbers[@]}"
+    [[ ${#numbers[@]} != 1 ]] || which="the first"
+    say "writing a surface for $which, and proving that it is closed, manifold and oriented"
+fi
+for number in "${numbers[@]}"; do
     file=$out/object_$number.$extension
     "$isoatlas" extract "$volume" "${options[@]}" --object "$number" --quiet -o "$file"
     [[ $extension == ply ]] || continue
     # The file is read back and every guarantee checked; the details matter only when one does not hold.
     proof=$("$isoatlas" verify "$file" --quiet) || { code=$?; echo "$proof" >&2; exit "$code"; }
     echo "  verified: ${proof##*: }"
-done < <(sed -nE 's/.*"number": ?([0-9]+),.*"best_tau".*/\1/p' "$out/objects.json")
-if [[ $number == 0 ]]; then
-    echo "nothing in this volume rises above the noise; $isoatlas objects $volume --all lists everything"
-fi
+done
 
 rm -rf "$before"
 say "done"

@@ -13,7 +13,9 @@ isoatlas=$(realpath "${ISOATLAS:-$here/build/release/bin/isoatlas}")
 folder=$1
 shift
 if [ $# -eq 0 ]; then
-  data=$(realpath "$here/../shared/data")
+  data=$here/../shared/data
+  [ -d "$data" ] || { echo "gallery: there is no ../shared/data beside the checkout. Next: name volumes of your own" >&2; exit 2; }
+  data=$(realpath "$data")
   for name in tooth engine bonsai headsq fuel neghip heptane pet; do set -- "$@" "$data/$name/$name.nrrd"; done
 fi
 mkdir -p "$folder"
