@@ -30,6 +30,6 @@ pictures, watertight surfaces, label volumes and measures, and serves a viewer i
 cpack_add_component_group(development DESCRIPTION "C++20 libraries of isoatlas\nMerge trees, contour trees, surfaces, stores, pictures and \
 the viewer's server as static libraries, with headers and a CMake package: find_package(isoatlas).")
 cpack_add_component(cli GROUP runtime)
-foreach(component IN ITEMS ${ISOATLAS_ALL_LIBRARIES} all package)
+foreach(component IN ITEMS ${ISOATLAS_ALL_LIBRARIES} umbrella package)  # cpack takes `all` for all components, the command line too
   cpack_add_component(${component} GROUP development)
 endforeach()

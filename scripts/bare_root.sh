@@ -83,6 +83,8 @@ make_target() {
     here=$(cd "$(dirname "$0")/.." && pwd)
     folder=$(mktemp -d)/root
     make_root "$folder"
+    # shellcheck disable=SC2064
+    [[ -n ${ISOATLAS_KEEP:-} ]] || trap "rm -rf --one-file-system '$(dirname "$folder")'" EXIT
     if command -v npm >/dev/null; then
         npm_config_registry=${npm_config_registry:-$(npm config get registry)}
     fi
@@ -107,11 +109,7 @@ make_target() {
         "lists of packages $(megabytes "$folder"/var/lib/apt/lists) MB unpacked, npm $(megabytes "$folder"/root/.npm) MB"
     echo "   disk: $(megabytes "$folder") MB, of that bare Debian and clone $disk MB, build $(megabytes "$folder"/isoatlas/build) MB," \
         "downloads that may go $(megabytes "$folder"/var/cache/apt "$folder"/root/.npm) MB"
-    if [[ -n ${ISOATLAS_KEEP:-} ]]; then
-        echo "   kept: $folder"
-    else
-        rm -rf --one-file-system "$(dirname "$folder")"
-    fi
+    [[ -z ${ISOATLAS_KEEP:-} ]] || echo "   kept: $folder"
     return $code
 }
 
