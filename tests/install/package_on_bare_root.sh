@@ -65,11 +65,12 @@ test -s /usr/share/zsh/vendor-completions/_isoatlas
 test -s /usr/share/fish/vendor_completions.d/isoatlas.fish
 # The viewer: its page, asked by hand; then Ctrl-C.
 set -m
+: >viewer
 isoatlas view demo.atlas --no-browser --json >viewer 2>viewer.errors &
-for ((n = 0; n < 600; n++)); do
-    port=$(sed -nE "s/.*\"port\": ?([0-9]+).*/\1/p" viewer)
-    [[ -z $port ]] && kill -0 %1 2>/dev/null || break
+port=""
+while [[ -z $port ]] && kill -0 %1 2>/dev/null; do
     sleep 0.1
+    port=$(sed -nE "s/.*\"port\": ?([0-9]+).*/\1/p" viewer)
 done
 [[ -n $port ]] || { cat viewer viewer.errors && exit 1; }
 said isoatlas ask $port /api/atlas >answer
