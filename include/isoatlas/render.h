@@ -69,8 +69,12 @@ struct OpacityTent {
 struct TransferCurve {
     std::vector<std::array<double, 2>> points{};
     Colour colour{};
-    std::string name{};  ///< for the legend; empty: not in it
+    std::string name{};             ///< for the legend; empty: not in it
+    std::vector<Colour> colours{};  ///< one for each point, and extinction times linear light is linear between points (Wittenbrink,
+                                    ///< Malzbender and Goss, 1998); empty: `colour` everywhere
 };
+/// Extinction per unit of length of matter that absorbs `opacity`, [0, 1), of the light over `length`.
+[[nodiscard]] double extinction_of(double opacity, double length);
 
 /// Volume rendering of a participating medium: emission and absorption, composited front to back together with surfaces and slices. Tents
 /// and curves add up.

@@ -3,12 +3,33 @@
 #include <algorithm>
 #include <cmath>
 #include <span>
+#include <string>
 
 #include "render/colours.h"
 
 namespace isoatlas {
 
 namespace {
+
+/// A point of a curve: extinction and glow at a value.
+struct Node {
+    double value;
+    std::array<double, 4> at;
+};
+
+std::vector<Node> nodes_of(const TransferCurve& curve, double length_unit) {
+    if (!curve.colours.empty() && curve.colours.size() != curve.points.size())
+        throw Error(ErrorKind::usage, {.what = "a transfer curve of " + std::to_string(curve.points.size()) + " points has " +
+                                               std::to_string(curve.colours.size()) + " colours",
+                                       .expected = "a colour for each point, or none"});
+    std::vector<Node> nodes;
+    for (std::size_t i = 0; i < curve.points.size(); ++i) {
+        const Vec3 colour = linear(curve.colours.empty() ? curve.colour : curve.colours[i]);
+        const double extinction = length_unit * curve.points[i][1];
+        nodes.push_back({curve.points[i][0], {extinction, extinction * colour[0], extinction * colour[1], extinction * colour[2]}});
+    }
+    return nodes;
+}
 
 /// A trapezoid over the values.
 TransferCurve curve_of(const OpacityTent& bump) {
@@ -21,25 +42,33 @@ TransferCurve curve_of(const OpacityTent& bump) {
 /// Integrals of a curve over the values from its first point on, evaluated at ascending values.
 class Integral {
 public:
-    explicit Integral(const TransferCurve& curve) : points_(curve.points) {}
-    double to(double value) {
-        while (next_ < points_.size() && points_[next_][0] <= value) {
-            if (next_ > 0) sum_ += (points_[next_][0] - points_[next_ - 1][0]) * (points_[next_][1] + points_[next_ - 1][1]) / 2;
+    explicit Integral(std::span<const Node> nodes) : nodes_(nodes) {}
+    std::array<double, 4> to(double value) {
+        while (next_ < nodes_.size() && nodes_[next_].value <= value) {
+            if (next_ > 0) sum_ = sum_to(nodes_[next_].value);
             ++next_;
         }
-        if (next_ == 0 || next_ == points_.size()) return sum_;
-        const auto& [v, d] = points_[next_ - 1];
-        const auto& [v_next, d_next] = points_[next_];
-        return sum_ + (value - v) * (d + (d_next - d) * (value - v) / (v_next - v) / 2);
+        return next_ == 0 || next_ == nodes_.size() ? sum_ : sum_to(value);
     }
 
 private:
-    std::span<const std::array<double, 2>> points_;
+    /// To a value between the last node and the next one.
+    [[nodiscard]] std::array<double, 4> sum_to(double value) const {
+        const Node &last = nodes_[next_ - 1], &next = nodes_[next_];
+        const double width = value - last.value, share = next.value > last.value ? width / (next.value - last.value) : 0;
+        std::array<double, 4> sum = sum_;
+        for (std::size_t c = 0; c < 4; ++c) sum[c] += width * (last.at[c] + (next.at[c] - last.at[c]) * share / 2);
+        return sum;
+    }
+
+    std::span<const Node> nodes_;
     std::size_t next_ = 0;
-    double sum_ = 0;
+    std::array<double, 4> sum_{};
 };
 
 }  // namespace
+
+double extinction_of(double opacity, double length) { return -std::log1p(-opacity) / length; }
 
 Transfer::Transfer(const SceneVolume& volume, double length_unit, std::array<double, 2> range)
     : low_(range[0]), places_per_value_(range[1] > range[0] ? kPlaces / (range[1] - range[0]) : 1), sums_(kPlaces + 1) {
@@ -51,13 +80,12 @@ Transfer::Transfer(const SceneVolume& volume, double length_unit, std::array<dou
 }
 
 void Transfer::add(const TransferCurve& curve, double length_unit) {
-    const Vec3 colour = linear(curve.colour);
-    Integral integral(curve);
-    const double first = integral.to(low_);
+    const std::vector<Node> nodes = nodes_of(curve, length_unit);
+    Integral integral(nodes);
+    const Sums first = integral.to(low_);
     for (std::int64_t i = 0; i <= kPlaces; ++i) {
-        const double sum = length_unit * (integral.to(low_ + static_cast<double>(i) / places_per_value_) - first);
-        sums_[i][0] += sum;
-        for (int c = 0; c < 3; ++c) sums_[i][c + 1] += sum * colour[c];
+        const Sums sum = integral.to(low_ + static_cast<double>(i) / places_per_value_);
+        for (std::size_t c = 0; c < 4; ++c) sums_[i][c] += sum[c] - first[c];
     }
 }
 

@@ -104,6 +104,30 @@ class Pictures(CliTest):
         for wrong in ("flesh", "flesh:60:0:#FF0000", "flesh:60:1:red", "flesh:60:1:#FF0000:1", ":60:1:#FF0000", "flesh:x:1:#FF0000"):
             self.run_error(2, "render", "figure.nrrd", "-o", "p.png", "--material", wrong, says="--material")
 
+    def test_opacity_curves(self):
+        flesh, bone = "30:0:#FF0000,60:0.2,80:0", "80:0:#00FF00,90:0.5:#0000FF,100:0.5"
+        document = self.run_json("render", "figure.nrrd", "--transfer", flesh, f"--transfer={bone}", *self.small, "-o", "c.png")
+        self.assert_schema(document, "render")
+        self.assertEqual((document["transfer"], document["materials"], document["objects"]), ([], [], []))
+        first, second = (curve["points"] for curve in document["curves"])
+        self.assertEqual([(point["value"], point["opacity"]) for point in first], [(30, 0), (60, 0.2), (80, 0)])
+        self.assertEqual([point["colour"] for point in first], [[1, 0, 0]] * 3)
+        self.assertEqual([point["colour"] for point in second], [[0, 1, 0], [0, 0, 1], [0, 0, 1]])
+        alone = self.picture("figure.nrrd", "--transfer", flesh, "--plain")
+        both = self.picture("figure.nrrd", "--transfer", flesh, "--transfer", bone, "--plain")
+        self.assertNotEqual(both, alone)
+        self.assertEqual(both, self.picture("figure.nrrd", "--transfer", bone, "--transfer", flesh, "--plain"))
+        self.assertEqual(alone, self.picture("figure.nrrd", "--volume", "--transfer", flesh, "--plain"))
+        self.assertEqual(alone, self.picture("figure.nrrd", "--transfer", "30:0:#FF0000,60:0.2:#FF0000,80:0:#FF0000", "--plain"))
+
+    def test_errors_of_opacity_curves(self):
+        for wrong, says in (("30", '"30" is not a point'), ("30:0", "a colour at the first point"), ("30:0:#FF0000", "is one point"),
+                            ("30:0:red,40:1", "in hexadecimal"), ("30:0:#FF0000,40:1", "from 0 to below 1"),
+                            ("30:0:#FF0000,20:0.5", "below that of the point before it"), ("x:0:#FF0000,20:0.5", "a finite number"),
+                            ("1:0:#FF0000,2:0.5:#FF0000:3", "is not a point"), ("", "is not a point")):
+            self.run_error(2, "render", "figure.nrrd", "-o", "p.png", "--transfer", wrong, says=says)
+            self.run_error(2, "render", "figure.nrrd", "-o", "p.png", "--transfer", wrong, says="--transfer=300:0:#F0E8D0")
+
     def test_a_store_gives_the_same_picture_with_any_threads(self):
         self.run_ok("build", "figure.nrrd", "-o", "figure.atlas")
         pictures = []

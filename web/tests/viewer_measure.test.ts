@@ -1,52 +1,16 @@
 // Measures and volume rendering of a ball of known size, in a browser with `isoatlas view`.
-import { mkdtempSync, rmSync, writeFileSync } from "node:fs";
+import { mkdtempSync, rmSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { afterAll, beforeAll, describe, expect, it } from "vitest";
 import { Api } from "../src/viewer/api/api";
 import { march } from "../src/viewer/scene/compositing";
-import { PLACES, transferTable, type OpacityTent } from "../src/viewer/api/transfer_function";
+import { PLACES, type OpacityTent } from "../src/viewer/api/transfer_function";
 import { decodeVolume } from "../src/viewer/api/wire_samples";
+import { ballFile, MIDDLE, middlePixel, RADIUS, SIDE, SPACING } from "./ball";
+import { tableOfTents } from "./tents";
 import { canServe, Served } from "./viewer_harness";
 import type { Page as Tab } from "playwright-core";
-
-const SIDE = 41;
-const SPACING = 0.5;
-const RADIUS = 7;
-const MIDDLE = (SIDE - 1) / 2;
-
-/** 100 - 10 times the distance to the middle in mm: a ball of radius r at 100 - 10 r. */
-function ballFile(path: string): void {
-  const samples = new Float32Array(SIDE ** 3);
-  for (let i = 0; i < samples.length; ++i) {
-    const [x, y, z] = [i % SIDE, Math.floor(i / SIDE) % SIDE, Math.floor(i / SIDE / SIDE)];
-    samples[i] = 100 - 10 * SPACING * Math.hypot(x - MIDDLE, y - MIDDLE, z - MIDDLE);
-  }
-  const header = [
-    "NRRD0004",
-    "type: float",
-    "dimension: 3",
-    `sizes: ${SIDE} ${SIDE} ${SIDE}`,
-    "encoding: raw",
-    "endian: little",
-    "space: left-posterior-superior",
-    `space directions: (${SPACING},0,0) (0,${SPACING},0) (0,0,${SPACING})`,
-    'space units: "mm" "mm" "mm"',
-  ];
-  writeFileSync(path, Buffer.concat([Buffer.from(`${header.join("\n")}\n\n`), Buffer.from(samples.buffer)]));
-}
-
-/** RGBA in the middle of the viewport, 0 to 255. */
-function middlePixel(tab: Tab): Promise<number[]> {
-  return tab.evaluate(() => {
-    const canvas = document.querySelector<HTMLCanvasElement>(".viewport > canvas")!;
-    const copy = document.createElement("canvas");
-    [copy.width, copy.height] = [1, 1];
-    const pen = copy.getContext("2d")!;
-    pen.drawImage(canvas, canvas.width / 2, canvas.height / 2, 1, 1, 0, 0, 1, 1);
-    return [...pen.getImageData(0, 0, 1, 1).data];
-  });
-}
 
 describe.skipIf(!canServe)("a ball", () => {
   let served: Served;
@@ -138,7 +102,7 @@ describe.skipIf(!canServe)("a ball", () => {
     const volume = decodeVolume(await (await api.request("/api/volume", "volume")).arrayBuffer());
     const { tents } = (await (await api.request("/api/transfer", "transfer")).json()) as { tents: OpacityTent[] };
     expect(volume.size).toEqual([SIDE, SIDE, SIDE]);
-    const table = transferTable(tents.map((tent) => ({ ...tent, density: factor * tent.density })), volume.low, volume.high);
+    const table = tableOfTents(tents.map((tent) => ({ ...tent, density: factor * tent.density })), volume.low, volume.high);
     const placeAt = (t: number): number => {
       const sample = t / SPACING;
       const [i, u] = [Math.min(Math.floor(sample), SIDE - 2), sample - Math.min(Math.floor(sample), SIDE - 2)];

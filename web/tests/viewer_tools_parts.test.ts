@@ -6,7 +6,7 @@ import { march } from "../src/viewer/scene/compositing";
 import { CUT, moved, outlineOf, planeOf, turned } from "../src/viewer/state/cut_plane";
 import { acrossAndDown, AXES, distance, dot, Grid, type AxisNumber, type Triple } from "../src/viewer/state/grid";
 import { innermostFirst } from "../src/viewer/api/locate";
-import { colouredAs } from "../src/viewer/tools/volume_tool";
+import { linearOf } from "../src/viewer/state/light";
 import { VOLUME_DENSITY } from "../src/viewer/state/volume_state";
 import { angleOf, arcOf, lengthOf, MEASURES } from "../src/viewer/state/measures";
 import { SlicedMesh } from "../src/viewer/scene/plane_cut";
@@ -15,7 +15,7 @@ import { CROSSHAIR, greyRange, PLANES } from "../src/viewer/state/slice_state";
 import { EVERYTHING } from "../src/viewer/api/entries";
 import { Ruler } from "../src/viewer/state/ruler";
 import { NOTHING } from "../src/viewer/state/state";
-import { linearOf, meanBetween, PLACES, transferTable, type OpacityTent } from "../src/viewer/api/transfer_function";
+import { colouredAs, layersOf, meanBetween, PLACES, transferTable, type OpacityTent } from "../src/viewer/api/transfer_function";
 import type { Mesh } from "../src/shared/wire";
 import { decodeSlice, decodeVolume, greyOf, valueAt } from "../src/viewer/api/wire_samples";
 import { scene } from "./sample";
@@ -273,7 +273,8 @@ describe("the orientation cube", () => {
 
 describe("the transfer function", () => {
   const tent: OpacityTent = { tau: 50, low: 40, high: 80, ramp: 0.25, density: 0.2, colour: "#ff8000" };
-  const table = transferTable([tent], 0, 102.4);
+  const tableOf = (low: number, high: number): Float32Array => transferTable(layersOf([tent], low, high, 1), low, high, 1);
+  const table = tableOf(0, 102.4);
   it("is as opaque as its tents", () => {
     const [red, green, blue, extinction] = meanBetween(table, 600, 601);
     expect([red, green, blue, extinction]).toEqual([
@@ -286,7 +287,7 @@ describe("the transfer function", () => {
     expect(meanBetween(table, 400, 500)[3]).toBeCloseTo(0.1, 4);
     expect(meanBetween(table, 0, PLACES)[3]).toBeCloseTo((0.2 * 30) / 102.4, 4);
     expect(meanBetween(table, 100, 390)[3]).toBe(0);
-    expect(meanBetween(transferTable([tent], 5, 5), 1, 2)[3]).toBe(0);
+    expect(meanBetween(tableOf(5, 5), 1, 2)[3]).toBe(0);
   });
   it("absorbs as much as the integral through a ball of constant density", () => {
     const [radius, inside] = [7, 640];

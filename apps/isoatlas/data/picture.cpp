@@ -33,14 +33,19 @@ Colour colour_of(const std::string& word) {
     return *colour;
 }
 
-ShownMaterial shown_material(const std::string& word) {
+std::vector<std::string> split(const std::string& word, char at) {
     std::vector<std::string> parts{""};
     for (const char c : word) {
-        if (c == ':')
+        if (c == at)
             parts.emplace_back();
         else
             parts.back() += c;
     }
+    return parts;
+}
+
+ShownMaterial shown_material(const std::string& word) {
+    const std::vector<std::string> parts = split(word, ':');
     const char* expected =
         "name, mean, standard deviation above 0, colour and, if not 0.1, opacity of a voxel below 1: fat:80:12:#E0C040:0.1";
     if (parts.size() < 4 || parts.size() > 5 || parts[0].empty()) bad("--material", word, expected);
@@ -49,6 +54,40 @@ ShownMaterial shown_material(const std::string& word) {
     const std::optional<double> opacity = parts.size() == 5 ? number_in<double>(parts[4]) : 0.1;
     if (!mean || !sigma || !(*sigma > 0) || !colour || !opacity || !(*opacity >= 0 && *opacity < 1)) bad("--material", word, expected);
     return {.name = parts[0], .mean = *mean, .sigma = *sigma, .colour = *colour, .opacity = *opacity};
+}
+
+[[noreturn]] void bad_curve(const std::string& what, const std::string& expected) {
+    throw Error(ErrorKind::usage, {.what = "--transfer: " + what,
+                                   .expected = expected,
+                                   .next = "give an opacity curve such as --transfer=300:0:#F0E8D0,400:0.3,1500:0.5"});
+}
+
+/// 300:0:#F0E8D0, or 300:0 behind another point, whose colour it has.
+ShownCurve::Point shown_point(const std::string& word, const ShownCurve& before) {
+    const std::vector<std::string> parts = split(word, ':');
+    const auto expect = [&](bool holds, const char* expected) {
+        if (!holds) bad_curve("\"" + word + "\" is not a point of an opacity curve", expected);
+    };
+    expect(parts.size() == 2 || parts.size() == 3, "a value, the opacity of a voxel and a colour: 300:0.1:#F0E8D0");
+    const std::optional<double> value = number_in<double>(parts[0]), opacity = number_in<double>(parts[1]);
+    expect(value.has_value(), "a finite number as the value");
+    expect(opacity && *opacity >= 0 && *opacity < 1, "an opacity from 0 to below 1");
+    expect(parts.size() == 3 || !before.points.empty(), "a colour at the first point: 300:0.1:#F0E8D0");
+    const std::optional<Colour> colour = parts.size() == 3 ? colour_in(parts[2]) : before.points.back().colour;
+    expect(colour.has_value(), "red, green and blue in hexadecimal: #F0E8D0");
+    return {.value = *value, .opacity = *opacity, .colour = *colour};
+}
+
+ShownCurve shown_curve(const std::string& word) {
+    ShownCurve curve;
+    for (const std::string& point : split(word, ',')) {
+        curve.points.push_back(shown_point(point, curve));
+        const std::size_t n = curve.points.size();
+        if (n > 1 && curve.points[n - 1].value < curve.points[n - 2].value)
+            bad_curve("the value of \"" + point + "\" is below that of the point before it", "points with rising values");
+    }
+    if (curve.points.size() < 2) bad_curve("\"" + word + "\" is one point", "at least two points; nothing is seen before the first and behind the last");
+    return curve;
 }
 
 void convert_cut(const std::string& word, PictureArguments& picture) {
@@ -131,7 +170,8 @@ void convert_picture(const PictureWords& words, PictureArguments& picture) {
     for (const std::string& word : words.colours) picture.colours.push_back(colour_of(word));
     for (const std::string& word : words.slices) picture.slices.push_back(shown_slice(word));
     for (const std::string& word : words.materials) picture.materials.push_back(shown_material(word));
-    picture.volume = picture.volume || !picture.materials.empty();
+    for (const std::string& word : words.curves) picture.curves.push_back(shown_curve(word));
+    picture.volume = picture.volume || !picture.materials.empty() || !picture.curves.empty();
     if (picture.flat && picture.slices.empty())
         throw Error(ErrorKind::usage, {.what = "--flat requires a slice", .next = "add --slice z=N, with N from 0"});
     convert_cut(words.cut, picture);

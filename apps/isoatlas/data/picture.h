@@ -14,7 +14,7 @@ namespace isoatlas::cli {
 /// As typed.
 struct PictureWords {
     std::vector<double> taus, opacities;
-    std::vector<std::string> objects, contours, cavities, colours, slices, materials;
+    std::vector<std::string> objects, contours, cavities, colours, slices, materials, curves;
     std::string cut, view = "auto", up = "z", size = "768x768", background = "light";
     std::string eye, target;
     double height = 0;  ///< 0: not given
@@ -49,6 +49,16 @@ struct ShownMaterial {
     double opacity = 0;  ///< of a voxel
 };
 
+/// --transfer 300:0:#F0E8D0,400:0.3,1500:0.5
+struct ShownCurve {
+    struct Point {
+        double value = 0;    ///< calibrated
+        double opacity = 0;  ///< of a voxel
+        Colour colour{};
+    };
+    std::vector<Point> points;  ///< at least two, values not falling
+};
+
 enum class CutShape : std::uint8_t { none, octant, half, planes };
 
 struct AnimationArguments {
@@ -72,6 +82,7 @@ struct PictureArguments {
     int samples = 0;  ///< 0: not given
     std::vector<ShownSlice> slices;
     std::vector<ShownMaterial> materials;
+    std::vector<ShownCurve> curves;
     AnimationArguments animation;
     bool perspective = false, plain = false;
     bool volume = false, shadows = false, flat = false;
@@ -94,8 +105,11 @@ void convert_picture(const PictureWords& words, PictureArguments& picture);
 
 /// The scene of the arguments, without the cut. Throws Error: usage, not_found.
 class Sides;
+class Source;
 struct Arguments;
 [[nodiscard]] Scene scene_of(const Arguments& arguments, Sides& sides);
+/// The transfer function of --volume, --material and --transfer, without the samples. first_colour: in the palette.
+[[nodiscard]] SceneVolume matter_of(const Arguments& arguments, Source& source, std::size_t first_colour);
 /// The part that --cut removes, seen from `view`; octants and halves are those of the volume.
 [[nodiscard]] std::vector<HalfSpace> removed_part(const PictureArguments& picture, const VolumeInfo& info, const View& view);
 

@@ -142,41 +142,6 @@ std::int64_t slice_side(const VolumeInfo& info, int axis, std::int64_t width, st
     return std::clamp<std::int64_t>(static_cast<std::int64_t>(pixels * std::max(across, down)), 16, 16384);
 }
 
-std::vector<Material> materials_of(const PictureArguments& picture, const VolumeInfo& info) {
-    const Scale scale(info);
-    const double voxel = *std::min_element(info.geometry.spacing.begin(), info.geometry.spacing.end());
-    std::vector<Material> materials;
-    for (const ShownMaterial& shown : picture.materials) {
-        materials.push_back({.name = shown.name,
-                             .mean = scale.stored(shown.mean),
-                             .sigma = shown.sigma / std::abs(info.calibration.slope),
-                             .colour = shown.colour,
-                             .density = -std::log1p(-shown.opacity) / voxel});
-    }
-    return materials;
-}
-
-/// The transfer function of --volume and --material, without the samples.
-SceneVolume matter_of(const Arguments& arguments, Source& source, std::size_t first_colour) {
-    const PictureArguments& picture = arguments.picture;
-    if (!picture.volume) return {};
-    const ValueRange range = source.range();
-    SceneVolume matter{.range = std::array<double, 2>{range.low, range.high}, .shadows = picture.shadows};
-    if (!picture.materials.empty()) {
-        matter.curves = material_transfer(materials_of(picture, source.info()), *matter.range);
-        return matter;
-    }
-    const ObjectTable table = source.objects({.top = 5});
-    matter.tents = propose_transfer(table, source.info(), *matter.range, static_cast<std::int64_t>(first_colour));
-    const Scale scale(source.info());
-    for (std::size_t i = 0; i < matter.tents.size(); ++i) {
-        OpacityTent& bump = matter.tents[i];
-        const bool body = i > 0 && bump.tau == matter.tents[i - 1].tau;
-        if (!body) bump.name = fmt::format("opacity {} {:.5g}", scale.is_low() ? "below" : "above", scale.reported(bump.tau));
-    }
-    return matter;
-}
-
 SampleBox box_of_slice(const Extent& extent, const ShownSlice& slice) {
     SampleBox box{{0, 0, 0}, extent.size};
     box.begin[static_cast<std::size_t>(slice.axis)] = slice.index;

@@ -31,6 +31,8 @@ void add_picture(CLI::App& app, Arguments& arguments, PictureWords& words) {
     app.add_flag("--volume", arguments.picture.volume, "Also volume rendering, one colour for each object of the table");
     add("--material", words.materials, "Volume rendering of materials: name, mean, standard deviation, colour, opacity of a voxel (0.1)",
         "NAME:M:S:C[:P]");
+    add("--transfer", words.curves, "Volume rendering by an opacity curve: values, opacities of a voxel, colours; several add up",
+        "VALUE:P:C,...");
     app.add_flag("--shadows", arguments.picture.shadows, "Shadows in the volume rendering (with --volume)");
     add("--view", words.view, "auto, front, back, left, right, top, bottom, or angles AROUND,ABOVE in degrees", "FROM");
     add("--up", words.up, "Up direction of the picture: x, y, z, -x, -y, -z or X,Y,Z", "AXIS");

@@ -14,6 +14,20 @@
 namespace isoatlas::cli {
 namespace {
 
+Json curves_json(const PictureArguments& picture) {
+    Json curves = Json::array();
+    for (const ShownCurve& curve : picture.curves) {
+        Json points = Json::array();
+        for (const ShownCurve::Point& point : curve.points) {
+            points.push_back({{"value", point.value},
+                              {"opacity", point.opacity},
+                              {"colour", {point.colour.red, point.colour.green, point.colour.blue}}});
+        }
+        curves.push_back({{"points", std::move(points)}});
+    }
+    return curves;
+}
+
 Json to_json(const Arguments& arguments, Source& source, const Scene& scene, const Image& image, const Camera& camera) {
     Json json = document("render", source.info(), source.interpolant(), source.tunnel_height());
     json["output"] = arguments.output;
@@ -48,6 +62,7 @@ Json to_json(const Arguments& arguments, Source& source, const Scene& scene, con
                              {"colour", {material.colour.red, material.colour.green, material.colour.blue}}});
     }
     json["materials"] = std::move(materials);
+    json["curves"] = curves_json(arguments.picture);
     json["camera"] = nullptr;
     if (!arguments.picture.flat)
         json["camera"] = {{"projection", camera.projection == Projection::orthographic ? "orthographic" : "perspective"},

@@ -14,6 +14,7 @@ import type { ViewerContext } from "./context/viewer_context";
 import { Editor } from "./context/editor";
 import { ObjectNames } from "./api/object_names";
 import { Pictures } from "./api/pictures";
+import { TransferProposal } from "./api/transfer_proposal";
 import { History } from "./state/history";
 import { addUnitTool } from "./tools/unit_tool";
 import { addTools } from "./tools/tools";
@@ -49,6 +50,7 @@ class Viewer implements ViewerContext {
   readonly scene: Scene;
   readonly names: ObjectNames;
   readonly pictures: Pictures;
+  readonly proposal: TransferProposal;
   readonly panels: PanelSwitch;
   private readonly message = html("p", { class: "message", role: "status" });
   private readonly axis: IsovaluePanel;
@@ -69,6 +71,7 @@ class Viewer implements ViewerContext {
     this.scene = new Scene(this);
     this.names = new ObjectNames(api, page);
     this.pictures = new Pictures(api, page);
+    this.proposal = new TransferProposal(api, page);
     this.panels = new PanelSwitch(main);
     addUnitTool(this, () => this.renewTitles()); // first: all others make text with lengths
     this.objectList = new ObjectListPanel(this);

@@ -36,6 +36,7 @@ const ICONS = {
   box: "M12 3l8 4.5v9L12 21l-8-4.5v-9zM4 7.5l8 4.5l8-4.5M12 12v9",
   turn: "M20 12a8 8 0 1 1-3-6.2M17 2v4h-4",
   clip: "M4 20L20 4M8 4H4v4M20 16v4h-4",
+  curve: "M3 20h18M3 17l6-2l5-9l7-2",
   fog: "M4 8h11M8 12h12M4 16h10",
   theme: "M12 3a9 9 0 1 0 0 18zM12 3a9 9 0 0 1 0 18",
   ruler: "M3 15L15 3l6 6L9 21zM7 11l2 2M11 7l2 2",
@@ -75,7 +76,8 @@ export const MENU: Record<Group, Section[]> = {
     { title: "Standard views", items: [["View", "axis"]] },
     { title: "Up direction", items: [["Up direction", "up"], ["Roll left 90", "undo"], ["Roll right 90", "redo"]] },
     { title: "Clipping", items: [["Clip", "clip"], ["Flip", "turn"]] },
-    { title: "Display", items: [["Volume rendering", "fog"], ["Bounding box", "box"], ["Unit", "ruler"], ["Theme", "theme"]] },
+    { title: "Volume", items: [["Volume rendering", "fog"], ["Opacity curve", "curve"]] },
+    { title: "Display", items: [["Bounding box", "box"], ["Unit", "ruler"], ["Theme", "theme"]] },
   ],
   Tools: [
     { title: "Slices", items: [["Slices", "slices"], ["Window presets", "theme"], ["Pick", "cross"]] },

@@ -4,6 +4,7 @@ import type { Actions } from "./actions";
 import type { Api } from "../api/api";
 import type { Catalogue } from "../api/catalogue";
 import type { ObjectNames } from "../api/object_names";
+import type { TransferProposal } from "../api/transfer_proposal";
 import type { Pictures } from "../api/pictures";
 import type { PanelSwitch } from "../panels/panel_switch";
 import type { Editor } from "./editor";
@@ -22,6 +23,7 @@ export interface ViewerContext {
   readonly editor: Editor;
   readonly names: ObjectNames;
   readonly pictures: Pictures;
+  readonly proposal: TransferProposal;
   readonly panels: PanelSwitch;
   readonly scene: Scene;
   /** element over the canvas, for overlays */

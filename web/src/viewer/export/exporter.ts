@@ -97,11 +97,11 @@ export class Exporter {
   }
 
   command(): string {
-    const { page, history, viewport, scene } = this.context;
+    const { page, history, viewport, scene, proposal } = this.context;
     const { view, up, isFlat: flat, height } = viewport.rig;
     const camera = { view, up, flat, height, cut: viewport.clippedHalfSpace };
     const size: [number, number] = [viewport.canvas.clientWidth, viewport.canvas.clientHeight];
-    const options = [...this.unitOption, ...renderOptions(page, history.now)];
+    const options = [...this.unitOption, ...renderOptions(page, history.now, proposal.layers)];
     return renderCommand(page, scene.drawnOf(history.now), camera, size, isDarkPage(), options);
   }
 

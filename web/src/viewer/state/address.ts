@@ -6,7 +6,7 @@ export function toHash(state: State): string {
   const view = state.view ? `&view=${state.view.map((n) => Number(n.toPrecision(7))).join(",")}` : "";
   const parts = Object.keys(state.parts)
     .sort()
-    .map((key) => `&${key}=${encodeURIComponent(state.parts[key] ?? "").replaceAll("%2C", ",")}`);
+    .map((key) => `&${key}=${encodeURIComponent(state.parts[key] ?? "").replace(/%(2C|3A|3B|40)/g, decodeURIComponent)}`);
   return `#scene=${state.shown.map(wordsOf).join(";")}&selected=${state.selected}${view}${parts.join("")}`;
 }
 

@@ -1,12 +1,24 @@
 // Options of `isoatlas render` for what is drawn besides surfaces: slices and the volume.
 import type { Page } from "../../shared/page";
 import { AXES, AXIS_NAMES, Grid } from "./grid";
-import { hasUniformSpacing, VOLUME_DENSITY } from "./volume_state";
+import { pointsText, scaledBy, type Layer } from "./opacity_curve";
+import { hasUniformSpacing, VOLUME_CURVE, VOLUME_DENSITY } from "./volume_state";
 import { CROSSHAIR, middleOf, PLANES } from "./slice_state";
 import type { State } from "./state";
 
-export function renderOptions(page: Page, state: State): string[] {
+/** proposal: of the opacity curve; null: not known yet, then that of the command line is used. */
+export function renderOptions(page: Page, state: State, proposal: readonly Layer[] | null = null): string[] {
   const cross = new Grid(page).inside(CROSSHAIR.of(state) ?? middleOf(page));
   const slices = PLANES.of(state) ? AXES.map((axis) => `--slice ${AXIS_NAMES[axis]}=${cross[axis]}`) : [];
-  return VOLUME_DENSITY.of(state) === null || !hasUniformSpacing(page) ? slices : [...slices, "--volume"];
+  return [...slices, ...volumeOptions(page, state, proposal)];
+}
+
+/** An option for each visible layer; its opacities include the density. */
+function volumeOptions(page: Page, state: State, proposal: readonly Layer[] | null): string[] {
+  const factor = VOLUME_DENSITY.of(state);
+  if (factor === null || !hasUniformSpacing(page)) return [];
+  const layers = VOLUME_CURVE.of(state) ?? proposal;
+  if (layers === null) return ["--volume"];
+  const curve = ({ points }: Layer): string => pointsText(scaledBy(points, factor), (colour) => colour.toUpperCase());
+  return layers.filter(({ visible }) => visible).map((layer) => `--transfer='${curve(layer)}'`);
 }
