@@ -6,7 +6,7 @@ import { join } from "node:path";
 import { inflateSync } from "node:zlib";
 import type { Locator, Page as Tab } from "playwright-core";
 import { afterAll, beforeAll, describe, expect, it } from "vitest";
-import { layersIn, type Layer } from "../src/viewer/state/opacity_curve";
+import { layersIn, matterAt, opacityOf, type Layer } from "../src/viewer/state/opacity_curve";
 import { march } from "../src/viewer/scene/compositing";
 import { PLACES, transferTable } from "../src/viewer/api/transfer_function";
 import { ballFile, MIDDLE, middlePixel, SIDE, SPACING } from "./ball";
@@ -17,6 +17,11 @@ const CENTRE = MIDDLE * SPACING;
 const alongX = `&flat=1&view=${CENTRE - 40},${CENTRE},${CENTRE},${CENTRE},${CENTRE},${CENTRE}`;
 /** two layers; the second is hidden */
 const CURVE = "40:0:ff0000,50:0.08,60:0.02:0000ff,80:0;!90:0:00ff00,99:0.5";
+
+interface Violation {
+  id: string;
+  nodes: { html: string }[];
+}
 
 function curveOf(tab: Tab): Layer[] | null {
   const text = new URLSearchParams(new URL(tab.url()).hash.slice(1)).get("curve");
@@ -144,8 +149,16 @@ describe.skipIf(!canServe)("the opacity curve", () => {
     const { tab, problems } = await edit(open());
     const [[x1, y1], [x2, y2]] = [await centre(points(tab).nth(2)), await centre(points(tab).nth(3))];
     await tab.mouse.click((x1 + x2) / 2, y1 + 0.3 * (y2 - y1), { delay: 20 });
-    await tab.mouse.dblclick(x2 + 30, y1 - 20);
-    await expect.poll(() => curveOf(tab)?.[0]?.points.length).toBeGreaterThanOrEqual(5);
+    await expect.poll(() => curveOf(tab)?.[0]?.points.length).toBe(5); // the fourth is on the curve
+    const added = curveOf(tab)![0]!.points[3]!;
+    expect(added.opacity).toBeCloseTo(opacityOf(matterAt(layersIn(CURVE)![0]!.points, added.value).extinction), 5);
+    const [x0, y0] = await centre(points(tab).nth(0));
+    await tab.mouse.dblclick(x0 - 60, y0 - 30);
+    await expect.poll(() => curveOf(tab)?.[0]?.points.length).toBe(6);
+    expect(curveOf(tab)![0]!.points[0]!.value).toBeLessThan(40);
+    expect(curveOf(tab)![0]!.points[0]!.opacity).toBeGreaterThan(0.01);
+    await undo(tab);
+    await expect.poll(() => points(tab).count()).toBe(5);
     const value = tab.getByRole("textbox", { name: "value of the point" });
     const opacity = tab.getByRole("textbox", { name: /opacity of a voxel/ });
     await points(tab).nth(1).focus();
@@ -231,7 +244,7 @@ describe.skipIf(!canServe)("the opacity curve", () => {
     expect(await note.isVisible()).toBe(false);
     await undo(tab);
     await expect.poll(() => tab.url()).toContain("scene=-1,30,1,1&");
-    await note.getByRole("button", { name: "Make them transparent" }).click();
+    await note.getByRole("button", { name: "Make transparent" }).click();
     await expect.poll(() => tab.url()).toContain("scene=-1,30,0.35,1&");
     expect(await note.isVisible()).toBe(false);
     await undo(tab);
@@ -242,22 +255,36 @@ describe.skipIf(!canServe)("the opacity curve", () => {
     await tab.close();
   });
 
-  for (const [width, height] of [[1400, 900], [800, 600], [390, 844]] as const) {
+  for (const [width, height] of [
+    [1400, 900],
+    [800, 600],
+    [390, 844],
+  ] as const) {
     it(`leaves room for the 3D view, ${width} x ${height}, and violates no rule of axe-core, light and dark`, async () => {
       for (const colorScheme of ["light", "dark"] as const) {
         const { tab } = await edit(`#scene=-1,60,1,1&selected=0&volume=1`, { colorScheme, viewport: { width, height } });
-        const [dock, canvas] = [await tab.locator(".volume-dock").boundingBox(), await tab.locator(".viewport > canvas").boundingBox()];
-        expect(canvas!.height).toBeGreaterThan(width === 800 ? 150 : 250);
-        expect(canvas!.y + canvas!.height).toBeLessThanOrEqual(dock!.y + 1); // nothing of it is covered
+        const box = async (selector: string): Promise<{ x: number; y: number; width: number; height: number }> =>
+          (await tab.locator(selector).boundingBox())!;
+        const end = async (): Promise<number> => (await box(".viewport > canvas")).y + (await box(".viewport > canvas")).height;
+        await expect.poll(async () => Math.abs((await end()) - (await box(".volume-dock")).y)).toBeLessThanOrEqual(1); // none of it is covered
+        expect((await box(".viewport > canvas")).height).toBeGreaterThan(height / 3);
+        const dock = await box(".volume-dock");
         const overflow = await tab.evaluate(() => document.documentElement.scrollWidth - document.documentElement.clientWidth);
         expect(overflow).toBeLessThanOrEqual(0);
-        expect(dock!.x >= 0 && dock!.x + dock!.width <= width).toBe(true);
+        expect(dock.x >= 0 && dock.x + dock.width <= width).toBe(true);
+        const cut = await tab
+          .locator(".opacity-editor .fields")
+          .evaluateAll(
+            (fields) =>
+              fields.filter((field) => field.getBoundingClientRect().right > innerWidth || field.scrollWidth > field.clientWidth)
+                .length,
+          );
+        expect(cut).toBe(0);
         await tab.evaluate(axe);
-        const found = await tab.evaluate(async () =>
-          (
-            await (window as unknown as { axe: { run(): Promise<{ violations: { id: string; nodes: { html: string }[] }[] }> } }).axe.run()
-          ).violations.flatMap(({ id, nodes }) => nodes.map(({ html }) => `${id}: ${html.slice(0, 160)}`)),
-        );
+        const found = await tab.evaluate(async () => {
+          const { violations } = await (window as unknown as { axe: { run(): Promise<{ violations: Violation[] }> } }).axe.run();
+          return violations.flatMap(({ id, nodes }) => nodes.map(({ html }) => `${id}: ${html.slice(0, 160)}`));
+        });
         expect(found).toEqual([]);
         await tab.close();
       }
@@ -269,7 +296,7 @@ describe.skipIf(!canServe)("the opacity curve", () => {
 function middleAlpha(file: Buffer): number {
   const parts: Buffer[] = [];
   let [width, height] = [0, 0];
-  for (let at = 8; at < file.length; ) {
+  for (let at = 8; at < file.length;) {
     const length = file.readUInt32BE(at);
     const name = file.toString("latin1", at + 4, at + 8);
     const data = file.subarray(at + 8, at + 8 + length);

@@ -32,7 +32,7 @@ export class HiddenVolumeNote {
       { class: "volume-bar note", role: "group", "aria-label": "surfaces hide the volume", hidden: true },
       this.text,
       button("Hide surfaces", () => history.go(changeAll(history.now, { visible: false }))),
-      button("Make them transparent", () => history.go(madeTransparent(history.now))),
+      button("Make transparent", () => history.go(madeTransparent(history.now))),
       html("button", { type: "button", "aria-label": "leave the surfaces as they are", click: () => this.dismiss() }, "✕"),
     );
     history.listen((state) => this.show(state));
@@ -50,6 +50,6 @@ export class HiddenVolumeNote {
     const count = isOn && !this.isDismissed ? opaqueOf(state).length : 0;
     this.element.hidden = count === 0;
     this.text.textContent =
-      count === 0 ? "" : `${count === 1 ? "An opaque surface hides" : "Opaque surfaces hide"} the volume inside and behind.`;
+      count === 0 ? "" : `${count === 1 ? "An opaque surface hides" : "Opaque surfaces hide"} the volume behind.`;
   }
 }

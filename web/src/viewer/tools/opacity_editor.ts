@@ -28,7 +28,7 @@ export class OpacityEditor {
   });
   private readonly only = html("button", { type: "button", class: "only" });
   private readonly presets = html("div", { class: "presets", role: "group", "aria-label": "presets of the opacity curve" });
-  private readonly voxel = html("span", { class: "soft" });
+  private readonly voxel = html("span", { class: "soft thick" });
   readonly element: HTMLElement;
 
   constructor(
@@ -44,7 +44,7 @@ export class OpacityEditor {
       html("label", {}, "Value ", this.value),
       html("label", {}, "Opacity ", this.opacity),
       this.colour,
-      button("Add point", "between this point and the next one (Insert)", () => this.plot.addBeside()),
+      button("Add", "between this point and the next one (Insert)", () => this.plot.addBeside()),
       button("Remove", "remove this point (Delete)", () => this.plot.remove()),
       this.voxel,
     );
@@ -85,7 +85,7 @@ export class OpacityEditor {
     this.only.textContent = isAlone ? "Show all layers" : "Only this layer";
     this.only.hidden = this.model.layers.length < 2;
     const { page } = this.context;
-    this.voxel.textContent = `of a voxel, ${length(page.volume.unit === null ? 1 : voxelLength(page), page.volume.unit)} thick`;
+    this.voxel.textContent = page.volume.unit === null ? "of a voxel" : `of a voxel, ${length(voxelLength(page), page.volume.unit)} thick`;
     this.showPresets();
   }
 

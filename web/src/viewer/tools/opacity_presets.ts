@@ -58,10 +58,10 @@ const CT: [name: string, title: string, stops: Stop[]][] = [
     "-950 to -400 HU: air in lungs and the surface of vessels and airways",
     [
       [-950, 0, "#56b4e9"],
-      [-850, 0.004, "#56b4e9"],
-      [-700, 0.02, "#a0c8e0"],
-      [-550, 0.12, "#f0d8d0"],
-      [-400, 0, "#f0d8d0"],
+      [-850, 0.003, "#56b4e9"],
+      [-700, 0.02, "#7fb2cc"],
+      [-550, 0.3, "#b8503c"],
+      [-400, 0, "#b8503c"],
     ],
   ],
 ];

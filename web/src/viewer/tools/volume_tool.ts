@@ -50,7 +50,7 @@ export class VolumeTool {
     this.edit.addEventListener("click", () => this.open(!this.isOpen));
     const close = html("button", { type: "button", "aria-label": "turn volume rendering off", click: () => this.toggle() }, "✕");
     const group = { class: "volume-bar", role: "group", "aria-label": "volume rendering", hidden: true };
-    this.bar = html("div", group, html("span", {}, "Volume"), this.slider, this.layers.element, this.edit, this.about, close);
+    this.bar = html("div", group, html("span", {}, "Volume"), this.slider, this.edit, this.layers.element, this.about, close);
     tools.append(new HiddenVolumeNote(context).element, this.bar);
     overlay.append(this.dock);
     this.dock.append(this.editor.element);
