@@ -120,11 +120,18 @@ class Pictures(CliTest):
         self.assertEqual(alone, self.picture("figure.nrrd", "--volume", "--transfer", flesh, "--plain"))
         self.assertEqual(alone, self.picture("figure.nrrd", "--transfer", "30:0:#FF0000,60:0.2:#FF0000,80:0:#FF0000", "--plain"))
 
+    def test_opacity_curves_are_in_values_of_the_file(self):
+        curve = ("--transfer", "30:0:#FF0000,60:0.2:#00FF00,80:0.05:#0000FF,100:0", "--view", "30,20", "--plain")
+        _, _, high = self.picture("figure.nrrd", *curve)
+        _, _, low = self.picture("figure.nrrd", *curve, "--polarity", "low")  # samples are negated: the curve is reversed
+        self.assertTrue(any(pixel != high[0][0] for row in high for pixel in row))
+        self.assertLessEqual(max(abs(a - b) for one, other in zip(high, low) for p, q in zip(one, other) for a, b in zip(p, q)), 2)
+
     def test_errors_of_opacity_curves(self):
         for wrong, says in (("30", '"30" is not a point'), ("30:0", "a colour at the first point"), ("30:0:#FF0000", "is one point"),
                             ("30:0:red,40:1", "in hexadecimal"), ("30:0:#FF0000,40:1", "from 0 to below 1"),
                             ("30:0:#FF0000,20:0.5", "below that of the point before it"), ("x:0:#FF0000,20:0.5", "a finite number"),
-                            ("1:0:#FF0000,2:0.5:#FF0000:3", "is not a point"), ("", "is not a point")):
+                            ("1:0:#FF0000,2:0.5:#FF0000:3", "is not a point")):
             self.run_error(2, "render", "figure.nrrd", "-o", "p.png", "--transfer", wrong, says=says)
             self.run_error(2, "render", "figure.nrrd", "-o", "p.png", "--transfer", wrong, says="--transfer=300:0:#F0E8D0")
 

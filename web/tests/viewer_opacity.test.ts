@@ -266,7 +266,8 @@ describe.skipIf(!canServe)("the opacity curve", () => {
         const box = async (selector: string): Promise<{ x: number; y: number; width: number; height: number }> =>
           (await tab.locator(selector).boundingBox())!;
         const end = async (): Promise<number> => (await box(".viewport > canvas")).y + (await box(".viewport > canvas")).height;
-        await expect.poll(async () => Math.abs((await end()) - (await box(".volume-dock")).y)).toBeLessThanOrEqual(1); // none of it is covered
+        const covered = async (): Promise<number> => Math.abs((await end()) - (await box(".volume-dock")).y);
+        await expect.poll(covered).toBeLessThanOrEqual(1);
         expect((await box(".viewport > canvas")).height).toBeGreaterThan(height / 3);
         const dock = await box(".volume-dock");
         const overflow = await tab.evaluate(() => document.documentElement.scrollWidth - document.documentElement.clientWidth);

@@ -86,7 +86,8 @@ ShownCurve shown_curve(const std::string& word) {
         if (n > 1 && curve.points[n - 1].value < curve.points[n - 2].value)
             bad_curve("the value of \"" + point + "\" is below that of the point before it", "points with rising values");
     }
-    if (curve.points.size() < 2) bad_curve("\"" + word + "\" is one point", "at least two points; nothing is seen before the first and behind the last");
+    if (curve.points.size() < 2)
+        bad_curve("\"" + word + "\" is one point", "at least two points; nothing is seen before the first and behind the last");
     return curve;
 }
 

@@ -29,7 +29,7 @@ export class HiddenVolumeNote {
     const button = (name: string, run: () => void): HTMLElement => html("button", { type: "button", click: run }, name);
     this.element = html(
       "div",
-      { class: "volume-bar note", role: "group", "aria-label": "surfaces hide the volume", hidden: true },
+      { class: "volume-note", role: "group", "aria-label": "surfaces hide the volume", hidden: true },
       this.text,
       button("Hide surfaces", () => history.go(changeAll(history.now, { visible: false }))),
       button("Make transparent", () => history.go(madeTransparent(history.now))),
