@@ -1,6 +1,7 @@
 // Opacity curves: their table against the sum of tents, their text, edits, presets, and the command line.
 import { describe, expect, it } from "vitest";
 import { layersOf, meanBetween, PLACES, transferTable, type OpacityTent } from "../src/viewer/api/transfer_function";
+import { readScene, writeScene } from "../src/viewer/export/scene_file";
 import { fromHash, toHash } from "../src/viewer/state/address";
 import { colourOfLight, linearOf } from "../src/viewer/state/light";
 import {
@@ -175,6 +176,13 @@ describe("an opacity curve in a link", () => {
     expect(toHash(state)).toBe(`#scene=&selected=-1&curve=${text}&volume=2`);
     expect(VOLUME_CURVE.of(fromHash(toHash(state), 3)!)).toEqual(layers);
     expect(VOLUME_CURVE.with(state, null).parts).toEqual({ volume: "2" });
+  });
+  it("is in the scene file, which rejects an invalid one by its name", () => {
+    const text = writeScene(page, VOLUME_CURVE.with(NOTHING, layers));
+    expect(VOLUME_CURVE.of(readScene(page, text))).toEqual(layers);
+    const wrong = text.replace(layersText(layers), "1:0:ffffff,2:7");
+    expect(wrong).not.toBe(text);
+    expect(() => readScene(page, wrong)).toThrow('parts.curve is "1:0:ffffff,2:7"');
   });
   it("is rejected when it is invalid", () => {
     const bad = [
