@@ -296,7 +296,7 @@ TEST(NiftiSharedData, ChecksumsAndOriginals) {
                                                              {"fuel/original/fuel.nii.gz", "fuel/fuel.nrrd"},
                                                              {"stroke/original/T1.nii.gz", "stroke/T1.nrrd"}};
     for (const auto& [original, converted] : originals)
-        EXPECT_EQ(checksum(kData + original, 16), stats.at(converted).at("sha256_samples")) << original;
+        EXPECT_EQ(checksum(kData + original, 16), stats.at(converted).at("sha256_samples").get<std::string>()) << original;
 }
 
 TEST(NiftiSharedData, FourDimensionsAndCalibration) {
