@@ -301,6 +301,23 @@ describe.skipIf(!canServe)("the opacity curve", () => {
       }
     });
   }
+
+  it("leaves room for the 3D view on a phone with slices, too", async () => {
+    const { tab, problems } = await edit("#scene=-1,60,1,1&selected=0&volume=1&slices=1", { viewport: { width: 390, height: 844 } });
+    const ends = (): Promise<number[]> =>
+      tab.evaluate(() =>
+        [".viewport > canvas", ".volume-dock", ".slices"].map((name) => document.querySelector(name)!.getBoundingClientRect())
+          .flatMap(({ top, bottom }) => [Math.round(top), Math.round(bottom)]),
+      );
+    const areInOrder = async (): Promise<boolean> => {
+      const [top, canvas, dock, dockEnd, slices] = (await ends()) as [number, number, number, number, number];
+      return canvas - top > 844 / 3 && Math.abs(canvas - dock) <= 1 && Math.abs(dockEnd - slices) <= 1;
+    };
+    await expect.poll(areInOrder).toBe(true);
+    expect(await tab.evaluate(() => document.documentElement.scrollWidth)).toBeLessThanOrEqual(390);
+    expect(problems).toEqual([]);
+    await tab.close();
+  });
 });
 
 /** Alpha in the middle of a picture, 0 to 1. PNG with 8 bits, red, green, blue and alpha, not interlaced. */
