@@ -178,20 +178,45 @@ describe.skipIf(!browserFile || !existsSync(bundled))("a page that turns", () =>
     await tab.close();
   });
 
-  it("has no accessibility problem, and says when it is not complete", async () => {
-    const data = await withMesh();
-    data.complete = false;
-    const { tab } = await open(data, "#object-1");
-    await tab.locator(".detail .solid canvas").waitFor();
+  const violations = async (tab: Tab): Promise<string[]> => {
     await tab.evaluate(AxeBuilder.source);
-    const found = await tab.evaluate(async () => {
-      const { axe } = globalThis as unknown as { axe: { run(): Promise<{ violations: { id: string }[] }> } };
-      return (await axe.run()).violations.map(({ id }) => id);
+    return tab.evaluate(async () => {
+      const { axe } = globalThis as unknown as { axe: { run(): Promise<{ violations: { id: string; nodes: { html: string }[] }[] }> } };
+      return (await axe.run()).violations.map(({ id, nodes }) => `${id}: ${nodes.map(({ html }) => html).join(" ")}`);
     });
-    expect(found).toEqual([]);
-    await tab.keyboard.press("Escape");
+  };
+
+  for (const [colorScheme, width] of [
+    ["light", 1000],
+    ["dark", 1000],
+    ["dark", 390],
+  ] as const)
+    it(`has no accessibility problem, ${colorScheme}, ${width} pixels wide, and says when it is not complete`, async () => {
+      const data = await withMesh();
+      data.complete = false;
+      const { tab, problems } = await open(data, "#object-1");
+      await tab.emulateMedia({ colorScheme, reducedMotion: "reduce" });
+      await tab.setViewportSize({ width, height: 900 });
+      await tab.locator(".detail .solid canvas").waitFor();
+      expect(await violations(tab)).toEqual([]);
+      expect(await tab.evaluate(() => document.documentElement.scrollWidth)).toBeLessThanOrEqual(width);
+      await tab.keyboard.press("Escape");
+      expect(await violations(tab)).toEqual([]);
+      expect(await tab.locator("header .assumed").textContent()).toContain("Still pictures only");
+      expect(await tab.locator("text=Reload").count()).toBe(1);
+      expect(problems).toEqual([]);
+      await tab.close();
+    });
+
+  it("of labels says when it is not complete, without an accessibility problem", async () => {
+    const data: LabelPage = {
+      ...{ schema: "isoatlas/label-page/1", version: "0", notes: [], interpolant: "trilinear", background: 9, complete: false },
+      volume: { name: "labels.nrrd", size: [4, 4, 4], type: "uint8", spacing: [1, 1, 1], unit: null },
+      labels: [],
+    };
+    const { tab } = await open(data);
     expect(await tab.locator("header .assumed").textContent()).toContain("Still pictures only");
-    expect(await tab.locator("text=Reload").count()).toBe(1);
+    expect(await violations(tab)).toEqual([]);
     await tab.close();
   });
 });
