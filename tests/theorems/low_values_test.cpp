@@ -171,9 +171,6 @@ void of_both_polarities_are_one_list() {
     const std::vector<isoatlas::RankedObject> list =
         isoatlas::rank_together(high_tables, low_table, volume.info.extent, {.top = 0, .holds = holds});
     RC_ASSERT(list.size() == high_tables.objects.entries.size() + low_table.entries.size());
-    const auto entry = [&](const isoatlas::RankedObject& o) -> const isoatlas::ObjectEntry& {
-        return (o.polarity == Polarity::high ? high_tables.objects : low_table).entries[o.entry];
-    };
     const auto table = [&](Polarity side) -> const isoatlas::ObjectTable& {
         return side == Polarity::high ? high_tables.objects : low_table;
     };
