@@ -5,6 +5,16 @@
 #include "isoatlas/text.h"
 
 namespace isoatlas::cli {
+namespace {
+
+/// The same letters, two of them exchanged, say: "lsp" of "lps".
+bool has_same_letters(std::string a, std::string b) {
+    std::ranges::sort(a);
+    std::ranges::sort(b);
+    return a == b;
+}
+
+}  // namespace
 
 std::string nearest(const std::string& word, const std::vector<std::string>& known) {
     // "obj" is the beginning of objects; what shares one letter with a short word is no typing error of it.
@@ -13,10 +23,11 @@ std::string nearest(const std::string& word, const std::vector<std::string>& kno
     for (const std::string& candidate : known) {
         if (letters.size() >= 3 && candidate.starts_with(word)) return candidate;
     }
-    std::size_t min = std::max<std::size_t>(letters.size() > 3 ? 2 : 1, letters.size() / 3) + 1;
+    std::size_t min = std::max<std::size_t>(2, letters.size() / 3) + 1;
     for (const std::string& candidate : known) {
         const std::size_t distance = edit_distance(word, candidate);
-        if (distance < min) {
+        const bool is_other_word = letters.size() <= 3 && distance > 1 && !has_same_letters(word, candidate);
+        if (distance < min && !is_other_word) {
             min = distance;
             best = candidate;
         }

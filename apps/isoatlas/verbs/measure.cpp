@@ -155,6 +155,9 @@ std::string measured_note(const Measured& measured, std::size_t i) {
     return note;
 }
 
+/// As many as are the same on every processor: thickness comes from rays in single precision.
+double three_digits(double value) { return std::isfinite(value) ? std::stod(fmt::format("{:.3g}", value)) : value; }
+
 void print_objects(Terminal& terminal, const VolumeInfo& info, const Measured& measured, std::int64_t shown, bool thickness) {
     const bool flat = info.extent.rank == 2;
     double largest = 0;
@@ -185,7 +188,7 @@ void print_objects(Terminal& terminal, const VolumeInfo& info, const Measured& m
         if (has_taus) row.push_back(Scale(info_of(measured, i, info)).brief(object.tau));
         row.insert(row.end(), {measure_text(object.volume * unit.factor), measure_text(object.area), measure_text(object.feret.max),
                                measure_text(object.feret.min), fmt::format("{:.3f}", object.sphericity)});
-        if (thickness) row.push_back(measure_text(object.thickness.median));
+        if (thickness) row.push_back(measure_text(three_digits(object.thickness.median)));
         if (!measured.are_labels) row.push_back(measure_text(object.values.mean));
         row.push_back(object.tunnels == 0 ? "-" : count_text(object.tunnels));
         if (!flat) row.push_back(object.cavities == 0 ? "-" : count_text(object.cavities));
