@@ -17,4 +17,5 @@ step "build" scripts/build.sh dev
 step "tests" ctest --preset dev
 python3 -B scripts/skipped_tests.py build/dev/Testing/Temporary/LastTest.log
 step "lint" scripts/lint.py build/dev
+step "clang" scripts/build.sh clang isoatlas_cli
 echo "All checks passed in $SECONDS s."
