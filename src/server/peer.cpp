@@ -10,10 +10,11 @@ namespace {
 
 constexpr int kSlowClient = 10'000;  ///< milliseconds
 
-bool waits_for(int socket, short what, int milliseconds) {
+/// timeout: in milliseconds.
+bool waits_for(int socket, short what, int timeout) {
     pollfd asked{.fd = socket, .events = what, .revents = 0};
     while (true) {
-        const int ready = ::poll(&asked, 1, milliseconds);
+        const int ready = ::poll(&asked, 1, timeout);
         if (ready >= 0 || errno != EINTR) return ready > 0;
     }
 }
@@ -30,9 +31,9 @@ bool Peer::send(std::string_view bytes, bool more) const {
     return true;
 }
 
-std::ptrdiff_t Peer::receive(char* bytes, std::size_t max, int milliseconds) const {
+std::ptrdiff_t Peer::receive(char* bytes, std::size_t max, int timeout) const {
     while (true) {
-        if (!waits_for(socket_, POLLIN, milliseconds)) return -1;
+        if (!waits_for(socket_, POLLIN, timeout)) return -1;
         const ssize_t count = ::recv(socket_, bytes, max, MSG_DONTWAIT);
         if (count >= 0 || (errno != EINTR && errno != EAGAIN)) return count;
     }

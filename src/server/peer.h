@@ -13,8 +13,8 @@ public:
 
     /// Sends all bytes. False: the client has disconnected, or has received nothing for ten seconds. more: further bytes follow at once.
     [[nodiscard]] bool send(std::string_view bytes, bool more = false) const;
-    /// Receives at most that many bytes; 0: closed by the other end, negative: timeout or error.
-    [[nodiscard]] std::ptrdiff_t receive(char* bytes, std::size_t max, int milliseconds) const;
+    /// Receives at most that many bytes; 0: closed by the other end, negative: error, or nothing for `timeout` milliseconds.
+    [[nodiscard]] std::ptrdiff_t receive(char* bytes, std::size_t max, int timeout) const;
     /// Has the client closed the connection, or its own half of it?
     [[nodiscard]] bool is_gone() const;
 
