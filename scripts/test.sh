@@ -14,8 +14,9 @@ step() {
 step "packages" scripts/bootstrap.sh test
 step "format" scripts/format.sh
 step "build" scripts/build.sh dev
-step "tests" ctest --preset dev
-python3 -B scripts/skipped_tests.py build/dev/Testing/Temporary/LastTest.log
+log=build/dev/Testing/Temporary/LastTest.log
+step "tests" sh -c 'ctest --preset dev || { status=$?; python3 -B scripts/failed_tests.py "$0"; exit $status; }' "$log"
+python3 -B scripts/skipped_tests.py "$log"
 step "lint" scripts/lint.py build/dev
 step "clang" scripts/build.sh clang isoatlas_cli
 echo "All checks passed in $SECONDS s."

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <span>
 
+#include "base/cancel.h"
 #include "formats/common/base64.h"
 #include "preview/coarse_surface.h"
 #include "preview/collapse_edges.h"
@@ -55,6 +55,16 @@ PageMesh page_mesh(const CoarseSurface& coarse, std::int64_t max_bytes, const Co
         now = reduced(now.surface, static_cast<std::size_t>(next), context);
         now.keeps_topology = now.keeps_topology && kept;
     }
+}
+
+std::vector<PageMesh> page_meshes(std::span<const CoarseSurface> surfaces, std::int64_t max_bytes, const Context& context) {
+    std::vector<PageMesh> meshes;
+    for (std::size_t i = 0; i < surfaces.size(); ++i) {
+        stop_if_cancelled(context);
+        meshes.push_back(page_mesh(surfaces[i], max_bytes / static_cast<std::int64_t>(surfaces.size() - i), context));
+        max_bytes -= std::ssize(meshes.back().data);
+    }
+    return meshes;
 }
 
 }  // namespace isoatlas

@@ -3,7 +3,9 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <string>
+#include <vector>
 
 #include "isoatlas/context.h"
 #include "isoatlas/surface.h"
@@ -33,5 +35,7 @@ struct CoarseSurface {
 [[nodiscard]] CoarseSurface coarse_for_page(const Surface& surface, const Context& context);
 /// In at most max_bytes of text; none where that is too little for a recognisable shape.
 [[nodiscard]] PageMesh page_mesh(const CoarseSurface& coarse, std::int64_t max_bytes, const Context& context);
+/// As many triangles each as fit in max_bytes together: what one leaves, the others share.
+[[nodiscard]] std::vector<PageMesh> page_meshes(std::span<const CoarseSurface> surfaces, std::int64_t max_bytes, const Context& context);
 
 }  // namespace isoatlas

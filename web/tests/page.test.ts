@@ -8,6 +8,7 @@ import { afterAll, beforeAll, describe, expect, it } from "vitest";
 import type { Label, LabelPage } from "../src/page/labels";
 import type { Page, Smoothed } from "../src/shared/page";
 import { branch, entry, page, scene } from "./sample";
+import { stableBox } from "./viewer_harness";
 
 const browserFile = ["/usr/bin/chromium", "/usr/bin/chromium-browser"].find((file) => existsSync(file));
 const bundled = fileURLToPath(new URL("../dist/atlas.html", import.meta.url));
@@ -193,7 +194,7 @@ describe.skipIf(!browserFile || !existsSync(bundled))("the page", () => {
     await picture.focus();
     await tab.keyboard.press("ArrowRight");
     expect(await picture.getAttribute("data-frame")).toBe("1");
-    const box = (await picture.boundingBox())!;
+    const box = await stableBox(picture);
     await tab.mouse.move(box.x + box.width * 0.9, box.y + box.height / 2);
     expect(await picture.getAttribute("data-frame")).toBe("3");
     await tab.close();

@@ -13,7 +13,7 @@ import type { Page, PageMesh } from "../src/shared/page";
 import { stlOf } from "../src/shared/stl";
 import { decodeMesh } from "../src/shared/wire";
 import { branch, entry, page } from "./sample";
-import { SOFTWARE_DRAWING } from "./viewer_harness";
+import { SOFTWARE_DRAWING, stableBox } from "./viewer_harness";
 
 const browserFile = ["/usr/bin/chromium", "/usr/bin/chromium-browser"].find((file) => existsSync(file));
 const bundled = fileURLToPath(new URL("../dist/atlas.html", import.meta.url));
@@ -99,7 +99,7 @@ describe.skipIf(!browserFile || !existsSync(bundled))("a page that turns", () =>
     expect(second).not.toBe(first);
     await tab.keyboard.press("ArrowLeft");
     expect(await viewOf(tab)).toBe(first);
-    const box = (await canvas.boundingBox())!;
+    const box = await stableBox(canvas);
     await tab.mouse.move(box.x + box.width / 2, box.y + box.height / 2);
     await tab.mouse.down();
     await tab.mouse.move(box.x + box.width / 2 + 80, box.y + box.height / 2 + 30);

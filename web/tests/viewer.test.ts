@@ -1,7 +1,7 @@
 // First steps in the viewer, in a browser with `isoatlas view`. Skipped without Chromium or isoatlas.
 import { join } from "node:path";
 import { afterAll, beforeAll, describe, expect, it } from "vitest";
-import { canServe, meshes, Served } from "./viewer_harness";
+import { canServe, meshes, Served, stableBox } from "./viewer_harness";
 
 interface Listed {
   id: number;
@@ -62,7 +62,7 @@ describe.skipIf(!canServe)("the viewer", () => {
     const box = tab.getByRole("textbox", { name: "isovalue" });
     const before = await box.inputValue();
     const slider = tab.getByRole("slider", { name: "isovalue, on the histogram" });
-    const area = (await slider.boundingBox())!;
+    const area = await stableBox(slider);
     await tab.mouse.move(area.x + area.width / 2, area.y + area.height / 2);
     await tab.mouse.down();
     await tab.mouse.move(area.x + area.width * 0.6, area.y + area.height / 2, { steps: 3 });

@@ -5,7 +5,7 @@ import { execFileSync, spawn, type ChildProcess } from "node:child_process";
 import { existsSync, mkdtempSync, rmSync, symlinkSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { basename, join } from "node:path";
-import { chromium, type Browser, type BrowserContextOptions, type Page as Tab } from "playwright-core";
+import { chromium, type Browser, type BrowserContextOptions, type Locator, type Page as Tab } from "playwright-core";
 
 globalThis.crypto ??= webcrypto as Crypto; // Debian's Node 18 keeps it to itself
 
@@ -132,6 +132,31 @@ function made(phantom: string[]): [string, string] {
 
 function build(folder: string, name: string, extension = ".nrrd"): void {
   execFileSync(cli, ["build", name + extension, "-o", `${name}.atlas`, "--quiet"], { cwd: folder });
+}
+
+/**
+ * Where an element is once it stands still: in the same place in ten frames, and nothing covers its middle. Places on the screen that
+ * were taken while a panel opened belong to something else when the pointer arrives there.
+ */
+export async function stableBox(locator: Locator): Promise<{ x: number; y: number; width: number; height: number }> {
+  return locator.first().evaluate(
+    (element) =>
+      new Promise((resolve) => {
+        let before = "";
+        let frames = 0;
+        const look = (): void => {
+          const { x, y, width, height } = element.getBoundingClientRect();
+          const now = [x, y, width, height].join(" ");
+          const there = document.elementFromPoint(x + width / 2, y + height / 2);
+          const isThere = there !== null && (element.contains(there) || (element.parentElement?.contains(there) ?? false));
+          frames = now === before && width > 0 && isThere ? frames + 1 : 0;
+          before = now;
+          if (frames >= 10) resolve({ x, y, width, height });
+          else requestAnimationFrame(look);
+        };
+        look();
+      }),
+  );
 }
 
 /** Responses with meshes from now on. */

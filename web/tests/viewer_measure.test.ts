@@ -9,7 +9,7 @@ import { PLACES, type OpacityTent } from "../src/viewer/api/transfer_function";
 import { decodeVolume } from "../src/viewer/api/wire_samples";
 import { ballFile, MIDDLE, middlePixel, RADIUS, SIDE, SPACING } from "./ball";
 import { tableOfTents } from "./tents";
-import { canServe, Served } from "./viewer_harness";
+import { canServe, Served, stableBox } from "./viewer_harness";
 import type { Page as Tab } from "playwright-core";
 
 describe.skipIf(!canServe)("a ball", () => {
@@ -27,7 +27,7 @@ describe.skipIf(!canServe)("a ball", () => {
   });
 
   async function middleOf(tab: Tab): Promise<[number, number]> {
-    const box = (await tab.locator(".viewport > canvas").boundingBox())!;
+    const box = await stableBox(tab.locator(".viewport > canvas"));
     return [box.x + box.width / 2, box.y + box.height / 2];
   }
   const text = (tab: Tab): Promise<string[]> => tab.locator(".measures li b").allTextContents();
@@ -87,7 +87,7 @@ describe.skipIf(!canServe)("a ball", () => {
     for (const key of ["m", "e", ...Array<string>(14).fill("5"), "e"]) await tab.keyboard.press(key);
     await expect.poll(() => text(tab)).toEqual(["90°", "7 mm"]);
     await tab.keyboard.press("m");
-    const box = (await tab.locator(".slices canvas").nth(2).boundingBox())!;
+    const box = await stableBox(tab.locator(".slices canvas").nth(2));
     const sample = Math.min(box.width, box.height) / SIDE;
     for (const by of [-10, 10]) await tab.mouse.click(box.x + box.width / 2 + by * sample, box.y + box.height / 2);
     await expect.poll(() => text(tab)).toEqual(["90°", "7 mm", "10 mm"]);

@@ -3,7 +3,7 @@ import { readFileSync } from "node:fs";
 import { join } from "node:path";
 import type { Page as Tab } from "playwright-core";
 import { afterAll, beforeAll, describe, expect, it } from "vitest";
-import { canServe, meshes, Served } from "./viewer_harness";
+import { canServe, meshes, Served, stableBox } from "./viewer_harness";
 
 interface Listed {
   id: number;
@@ -154,8 +154,7 @@ describe.skipIf(!canServe)("the list of objects", () => {
     const plot = tab.locator(".scatter");
     const dots = tab.locator(".scatter .u-over"); // between the axes
     await tab.getByText("a dot each").waitFor(); // all objects are known
-    const box = await plot.boundingBox();
-    if (!box) throw new Error("no plot");
+    const box = await stableBox(plot);
     await tab.mouse.move(box.x + box.width * 0.6, box.y + box.height * 0.55);
     await tab.mouse.down();
     await tab.mouse.move(box.x + box.width - 1, box.y + 1, { steps: 4 });

@@ -10,7 +10,7 @@ import { layersIn, matterAt, opacityOf, type Layer } from "../src/viewer/state/o
 import { march } from "../src/viewer/scene/compositing";
 import { PLACES, transferTable } from "../src/viewer/api/transfer_function";
 import { ballFile, MIDDLE, middlePixel, SIDE, SPACING } from "./ball";
-import { canServe, Served } from "./viewer_harness";
+import { canServe, Served, stableBox } from "./viewer_harness";
 
 const axe = readFileSync(createRequire(import.meta.url).resolve("axe-core/axe.min.js"), "utf8");
 const CENTRE = MIDDLE * SPACING;
@@ -61,7 +61,7 @@ describe.skipIf(!canServe)("the opacity curve", () => {
     return opened;
   }
   async function centre(handle: Locator): Promise<[number, number]> {
-    const box = (await handle.locator(".dot").boundingBox())!;
+    const box = await stableBox(handle.locator(".dot"));
     return [box.x + box.width / 2, box.y + box.height / 2];
   }
   const open = (curve = CURVE): string => `#scene=&selected=-1&volume=1&curve=${curve}${alongX}`;

@@ -3,7 +3,7 @@ import { readFileSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 import type { Page as Tab } from "playwright-core";
 import { afterAll, beforeAll, describe, expect, it } from "vitest";
-import { canServe, meshes, Served } from "./viewer_harness";
+import { canServe, meshes, Served, stableBox } from "./viewer_harness";
 
 interface Listed {
   id: number;
@@ -136,7 +136,7 @@ describe.skipIf(!canServe)("the scene", () => {
     const { tab } = await served.open(scene(3).replace("selected=0", "selected=1"));
     await settled(tab);
     const canvas = tab.locator(".viewport canvas").first();
-    const { width, height } = (await canvas.boundingBox()) ?? { width: 0, height: 0 };
+    const { width, height } = await stableBox(canvas);
     const selected = () => tab.locator('.scene [aria-current="true"]').locator("b").textContent();
     await tab.keyboard.press("g");
     expect(await tab.getByRole("button", { name: "Ghost others" }).getAttribute("aria-pressed")).toBe("true");
@@ -211,8 +211,7 @@ describe.skipIf(!canServe)("the scene", () => {
     it(`draws the line of the isovalue where the histogram is clicked, ${colorScheme}`, async () => {
       const { tab, problems } = await served.open(scene(1), { colorScheme });
       await settled(tab);
-      const box = await tab.locator(".drawn").boundingBox();
-      if (!box) throw new Error("no histogram");
+      const box = await stableBox(tab.locator(".drawn"));
       const colourAt = (left: number): Promise<number[]> =>
         tab.locator(".drawn canvas").evaluate((canvas: HTMLCanvasElement, at) => {
           const near = canvas.getContext("2d")?.getImageData(Math.round(at * devicePixelRatio), 6 * devicePixelRatio, 1, 1).data ?? [];

@@ -3,7 +3,7 @@ import { existsSync } from "node:fs";
 import { join } from "node:path";
 import type { Page as Tab } from "playwright-core";
 import { afterAll, beforeAll, describe, expect, it } from "vitest";
-import { canServe, Served } from "./viewer_harness";
+import { canServe, Served, stableBox } from "./viewer_harness";
 
 const data = process.env.ISOATLAS_DATA ?? "nowhere";
 const lung = join(data, "lung_ct/lung_lo.nrrd");
@@ -92,7 +92,7 @@ describe.skipIf(!canServe || !existsSync(headFile("RAS")))("slices of one head, 
       await expect.poll(part(tab, "cross")).toBe(stored(code, [24, 50, 40], size).join());
       await axial.press("ArrowUp");
       await expect.poll(part(tab, "cross")).toBe(stored(code, [24, 51, 40], size).join());
-      const box = (await axial.boundingBox())!;
+      const box = await stableBox(axial);
       await axial.click({ position: { x: box.width * 0.35, y: box.height * 0.5 } }); // right of the middle of the patient
       const leftwards = [...code].findIndex((letter) => "RL".includes(letter));
       await expect.poll(() => numbersOf(part(tab, "cross")())[leftwards]! > 32).toBe(code[leftwards] === "R");
@@ -182,7 +182,7 @@ describe.skipIf(!canServe || !existsSync(lung))("the window of slices of a CT", 
   it("follows a drag with the right button, or with Ctrl, in one step, and keys", async () => {
     const { tab, problems } = await served.open("#scene=&selected=-1&slices=1&grey=-160,240&cross=20,20,20");
     await slicesLoaded(tab);
-    const box = (await tab.locator(".slices canvas").nth(2).boundingBox())!;
+    const box = await stableBox(tab.locator(".slices canvas").nth(2));
     const [x, y] = [box.x + box.width / 2, box.y + box.height / 2];
     const drag = async (right: number, down: number, button: "left" | "right" | "middle"): Promise<void> => {
       await tab.mouse.move(x, y);
@@ -225,7 +225,7 @@ describe.skipIf(!canServe || !existsSync(lung))("the window of slices of a CT", 
       });
       expect(right, `${width}`).toBeLessThanOrEqual(width);
       expect(left, `${width}`).toBeGreaterThanOrEqual(0);
-      const picture = (await tab.locator(".slices canvas").first().boundingBox())!;
+      const picture = await stableBox(tab.locator(".slices canvas").first());
       expect(picture.height, `${width}`).toBeGreaterThan(100);
       for (const menu of await tab.locator(".menus summary").all()) {
         await menu.click();
@@ -310,7 +310,7 @@ describe.skipIf(!canServe)("what is up", () => {
     await tab.getByRole("button", { name: "Up direction +Y" }).click();
     await expect.poll(part(tab, "up")).toBe("y");
     const before = offset(tab);
-    const box = (await tab.locator(".viewport > canvas").boundingBox())!;
+    const box = await stableBox(tab.locator(".viewport > canvas"));
     await tab.mouse.move(box.x + box.width / 2 + 90, box.y + 90);
     await tab.mouse.down();
     await tab.mouse.move(box.x + box.width / 2 + 190, box.y + 90, { steps: 4 });

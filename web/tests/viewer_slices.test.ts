@@ -5,7 +5,7 @@ import { acrossAndDown, AXES, Grid, type AxisNumber } from "../src/viewer/state/
 import type { Ruler } from "../src/viewer/state/ruler";
 import { SlicedMesh } from "../src/viewer/scene/plane_cut";
 import { decodeSlice } from "../src/viewer/api/wire_samples";
-import { canServe, Served } from "./viewer_harness";
+import { canServe, Served, stableBox } from "./viewer_harness";
 import type { Page as Tab } from "playwright-core";
 
 function hashOf(tab: Tab): URLSearchParams {
@@ -88,7 +88,7 @@ describe.skipIf(!canServe)("slices", () => {
     await expect.poll(() => hashOf(tab).get("cross")).toBe([moved[0]! - 1, moved[1], moved[2]].join());
     await tab.keyboard.press("Control+z");
     await expect.poll(() => hashOf(tab).get("cross")).toBe(moved.join());
-    const box = (await slice.nth(0).boundingBox())!;
+    const box = await stableBox(slice.nth(0));
     await tab.mouse.move(box.x + box.width / 2, box.y + box.height / 2);
     await tab.mouse.wheel(0, 100);
     await expect.poll(() => hashOf(tab).get("cross")).toBe([moved[0]! - 1, moved[1], moved[2]].join());
@@ -171,7 +171,7 @@ describe.skipIf(!canServe)("slices", () => {
     await tab.keyboard.press("Control+z");
     await expect.poll(cut).toEqual([1, 0, 0, 0.5]);
     await tab.keyboard.press("f");
-    const box = (await tab.locator(".viewport > canvas").boundingBox())!;
+    const box = await stableBox(tab.locator(".viewport > canvas"));
     const middle = [box.x + box.width / 2, box.y + box.height / 2] as const;
     await tab.waitForTimeout(300);
     await tab.mouse.move(...middle);

@@ -6,7 +6,7 @@ import { afterAll, beforeAll, describe, expect, it } from "vitest";
 import { Api } from "../src/viewer/api/api";
 import { SlicedMesh } from "../src/viewer/scene/plane_cut";
 import { AXES, Grid } from "../src/viewer/state/grid";
-import { canServe, Served } from "./viewer_harness";
+import { canServe, Served, stableBox } from "./viewer_harness";
 
 const SIDE = 30;
 const MIDDLE = SIDE / 2;
@@ -83,7 +83,7 @@ describe.skipIf(!canServe)("a volume with uneven steps", () => {
     const ends = (axis: 0 | 1): number[] => [rulers[axis].length(-0.5), rulers[axis].length(SAMPLES - 0.5)];
     const [[left, right], [top, bottom]] = [ends(0), ends(1)] as [[number, number], [number, number]];
     const clickRight = async (away: number): Promise<number> => {
-      const { width, height } = (await slice.boundingBox())!;
+      const { width, height } = await stableBox(slice);
       const pixels = Math.min(width / (right - left), height / (bottom - top)); // of a unit of length
       await slice.click({ position: { x: width / 2 + away * pixels, y: height / 2 } });
       const cross = new URLSearchParams(new URL(tab.url()).hash.slice(1)).get("cross") ?? "";

@@ -1,5 +1,6 @@
 // Windows of grey values: level and width, as radiologists name them, and the usual ones of CT.
 import type { Page } from "../../shared/page";
+import { isHounsfield } from "./hounsfield";
 import { greyRange } from "./slice_state";
 
 /** black = level - width / 2, white = level + width / 2 */
@@ -41,22 +42,6 @@ const CT: [name: string, level: number, width: number][] = [
   ["Brain", 40, 80],
   ["Bone", 400, 1800],
 ];
-/** Hounsfield units of air and of water, and the lowest and highest values that scanners write */
-const [AIR, WATER, LOWEST, HIGHEST] = [-1000, 0, -10_000, 70_000];
-/** values of air are at most this far from that of the definition */
-const AIR_SPREAD = 300;
-
-export function isHounsfield({ volume }: Pick<Page, "volume">): boolean {
-  return /^(hu|hounsfield( units?)?)$/i.test(volume.valueUnit ?? "");
-}
-
-/** Without a unit: are there values of air, as far below those of water as in Hounsfield units? */
-export function looksLikeCt({ volume }: Pick<Page, "volume">): boolean {
-  const { low, high, valueUnit, type } = volume;
-  if ((valueUnit ?? "") !== "" || type === "uint8" || type === "int8") return false;
-  return low >= LOWEST && low <= AIR + AIR_SPREAD && high > WATER && high <= HIGHEST;
-}
-
 /** tau: isovalue of the selected object; null: none is selected. */
 export function presetGroups(page: Pick<Page, "volume" | "histogram" | "axis">, tau: number | null): PresetGroup[] {
   const { low, high } = page.volume;
@@ -69,7 +54,7 @@ export function presetGroups(page: Pick<Page, "volume" | "histogram" | "axis">, 
   }
   const groups: PresetGroup[] = [{ title: "", presets: general }];
   const isCt = isHounsfield(page);
-  if (!isCt && !looksLikeCt(page)) return groups;
+  if (isCt === false) return groups;
   const presets = CT.map(([name, level, width]) => ({ name, grey: greyOfWindow({ level, width }), level }))
     .filter(({ grey: [black, white], level }) => black < high && white > low && (isCt || (level >= low && level <= high)))
     .map(({ name, grey }) => ({ name, grey }));

@@ -3,6 +3,7 @@ import { value } from "../../shared/format";
 import type { Page } from "../../shared/page";
 import { isOfLowValues, branchOf, entryOf } from "../../shared/page";
 import { colourOfShown, EVERYTHING } from "../api/entries";
+import { isHounsfield } from "../state/hounsfield";
 import { cutOff, type CurvePoint, type Layer } from "../state/opacity_curve";
 import { GREY, greyRange } from "../state/slice_state";
 import type { State } from "../state/state";
@@ -21,9 +22,6 @@ const DENSE = 0.4;
 const RAMP_END = 0.15;
 /** of the axis: width of the edge at an isovalue, as a jump would show the steps of the samples */
 const EDGE = 0.01;
-/** unit without a name: Hounsfield units are guessed from a range like this */
-const HU_LOW = [-4096, -500] as const;
-const HU_HIGH = [300, 32767] as const;
 
 /**
  * Named ranges of Hounsfield units: what is denser than soft tissue is bone (from 150; compact bone from 700); soft tissue
@@ -106,13 +104,6 @@ function beyondIsovalue(page: Page, state: State): Preset[] {
   return [
     preset(page, `Only ${sign} ${value(shown.tau)}`, "only values beyond the isovalue of the selected object", stops, shown.tau),
   ];
-}
-
-/** Are the values Hounsfield units? By their unit; without one, null: it looks like it. */
-export function isHounsfield({ volume, axis }: Page): boolean | null {
-  if (volume.valueUnit !== null) return /^hu$|hounsfield/i.test(volume.valueUnit);
-  const within = (x: number, [from, to]: readonly [number, number]): boolean => x >= from && x <= to;
-  return within(axis.low, HU_LOW) && within(axis.high, HU_HIGH) ? null : false;
 }
 
 /** Those whose values the volume has. */
