@@ -32,7 +32,7 @@ struct PageOptions {
     std::int64_t top = 24;            ///< at most so many pictures of objects
     std::int64_t top_cavities = 12;   ///< and of cavities
     std::int64_t picture_size = 256;  ///< pixels of a side, 32 to 1024
-    std::int64_t frames = 12;         ///< of a turntable, 1 to 64
+    std::int64_t frames = 1;          ///< of a turntable, 1 to 64; pages turn the coarse surface instead
     std::vector<ObjectName> names{};  ///< that users have given
     /// The same store, open for objects of low values: both polarities in one list, without cavities.
     const Atlas* low = nullptr;
@@ -40,13 +40,14 @@ struct PageOptions {
     std::string source{};                 ///< the file in commands on the page: the volume or the store; empty: the store
     std::vector<std::string> notes{};     ///< sentences about the volume: what was assumed about its samples
     std::optional<PageSmoothing> smoothing{};
-    /// Set: the page is written with still pictures first, called for that file, then replaced by the complete one.
-    std::function<void(const PageReport&)> stills_written{};
+    /// Set: the page is written as soon as its first five pictures are there, and again with twice as many, until it is complete; called
+    /// after each time with the number of pictures.
+    std::function<void(std::int64_t)> partly_written{};
 };
 
 /// Ranks the objects and cavities of a store, renders them and writes the page. Throws Error: usage (options), input (damaged store),
 /// resource (cannot be written), cancelled. Cost: that of Atlas::hierarchy() and
-/// Atlas::histogram(), find_handles() (isoatlas/handles.h), and draws objects * frames pictures.
+/// Atlas::histogram(), find_handles() (isoatlas/handles.h), and draws objects * frames pictures, two objects at a time.
 PageReport write_page(const std::string& path, const Atlas& atlas, const PageOptions& options = {}, const Context& context = {});
 
 }  // namespace isoatlas

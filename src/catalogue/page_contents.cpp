@@ -1,5 +1,4 @@
 #include "catalogue/page_contents.h"
-#include "base/phase.h"
 
 #include <algorithm>
 #include <cmath>
@@ -9,6 +8,7 @@
 
 #include "atlas/access.h"
 #include "base/cancel.h"
+#include "catalogue/draw_cards.h"
 #include "catalogue/page_axis.h"
 #include "catalogue/thin_curve.h"
 #include "census/count_intervals.h"
@@ -227,55 +227,37 @@ Surface surface_of(const Atlas& atlas, bool is_cavity, const PageEntry& entry, c
 
 namespace {
 
-/// Calls use(entry, surface, silent context) with the surface of each entry of a 3D volume; of a 2D volume it draws the slice.
-template <class Use>
-void for_each_surface(PageContents& contents, const StoreSides& sides, const PageOptions& options, const Context& context, const Use& use) {
+/// Of a 2D volume: slices with the contours.
+void draw_slices(PageContents& contents, const StoreSides& sides, const PageOptions& options, const Context& context) {
     Context silent = context;
     silent.progress = nullptr;
-    std::vector<PageEntry>& entries = contents.entries;
     std::optional<Volume> image;
-    const bool is_flat = sides.main.info().extent.rank == 2;
-    for (std::size_t i = 0; i < entries.size(); ++i) {
-        PageEntry& entry = entries[i];
-        report(context, only_phase("draw"), static_cast<double>(i) / static_cast<double>(entries.size()));
-        const PageBranch& branch = contents.branches[entry.branch];
-        const Atlas& atlas = sides.of(branch.polarity);
-        if (is_flat) {
-            if (!image || polarity_of(image->info) != polarity_of(atlas.info())) image = atlas.volume(silent);
-            entry.picture = draw_still(*image, entry.tau, entry.colour, options, silent);
-            continue;
-        }
-        use(entry, surface_of(atlas, branch.is_cavity, entry, silent), silent);
+    for (PageEntry& entry : contents.entries) {
+        stop_if_cancelled(context);
+        const Atlas& atlas = sides.of(contents.branches[entry.branch].polarity);
+        if (!image || polarity_of(image->info) != polarity_of(atlas.info())) image = atlas.volume(silent);
+        entry.picture = draw_still(*image, entry.tau, entry.colour, options, silent);
     }
 }
 
 }  // namespace
 
-void draw_stills(PageContents& contents, const StoreSides& sides, const PageOptions& options, const Context& context) {
-    PageOptions still = options;
-    still.frames = 1;
-    for_each_surface(contents, sides, still, context, [&](PageEntry& entry, Surface surface, const Context& silent) {
-        entry.picture = draw_turntable(std::move(surface), entry.colour, still, silent);
-    });
-}
-
 std::vector<CoarseSurface> draw_pictures(PageContents& contents, const StoreSides& sides, const PageOptions& options,
-                                         const Context& context) {
-    std::vector<CoarseSurface> surfaces;
-    for_each_surface(contents, sides, options, context, [&](PageEntry& entry, Surface surface, const Context& silent) {
-        surfaces.push_back(coarse_for_page(surface, silent));
-        entry.picture = draw_turntable(std::move(surface), entry.colour, options, silent);
-    });
-    return surfaces;
-}
-
-void add_meshes(PageContents& contents, const std::vector<CoarseSurface>& surfaces, std::int64_t max_bytes, const Context& context) {
-    for (std::size_t i = 0; i < surfaces.size(); ++i) {
-        stop_if_cancelled(context);
-        const std::int64_t share = max_bytes / (std::ssize(surfaces) - static_cast<std::int64_t>(i));
-        contents.entries[i].mesh = page_mesh(surfaces[i], share, context);
-        max_bytes -= std::ssize(contents.entries[i].mesh.data);
+                                         const std::function<void(std::size_t)>& drawn, const Context& context) {
+    if (sides.main.info().extent.rank == 2) {
+        draw_slices(contents, sides, options, context);
+        return {};
     }
+    std::vector<CoarseSurface> surfaces(contents.entries.size());
+    const auto draw = [&](std::size_t i, const Context& own) {
+        PageEntry& entry = contents.entries[i];
+        const PageBranch& branch = contents.branches[entry.branch];
+        CardPicture card = draw_card(surface_of(sides.of(branch.polarity), branch.is_cavity, entry, own), entry.colour, options, own);
+        entry.picture = std::move(card.picture);
+        surfaces[i] = std::move(card.coarse);
+    };
+    draw_cards(surfaces.size(), draw, drawn, context);
+    return surfaces;
 }
 
 }  // namespace isoatlas

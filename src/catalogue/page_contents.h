@@ -90,7 +90,7 @@ struct PageContents {
     std::vector<std::string> notes;          ///< of PageOptions
     std::optional<PageSmoothing> smoothing;  ///< of PageOptions
     std::optional<SmoothingComparison> comparison{};
-    bool is_complete = true;        ///< false: with still pictures only, while the others are drawn
+    bool is_complete = true;        ///< false: with the first pictures, while the others are drawn
     bool exact_tunnels = false;     ///< the pairs of catalogue/longest_tunnels.h
     std::optional<PageSide> low{};  ///< of both polarities: all else is of high values, or of both (catalogue/joined_contents.h)
 };
@@ -99,12 +99,9 @@ struct PageContents {
 [[nodiscard]] PageContents page_contents(const Atlas& atlas, const Overview& found, const PageOptions& options, const Context& context);
 /// The surface of an entry of a 3D volume. is_cavity: its id is that of a contour. Cost: Atlas::extract().
 [[nodiscard]] Surface surface_of(const Atlas& atlas, bool is_cavity, const PageEntry& entry, const Context& context);
-/// One picture for every entry. Cost: a surface and a picture each.
-void draw_stills(PageContents& contents, const StoreSides& sides, const PageOptions& options, const Context& context);
-/// options.frames pictures for every entry. Returns the coarse surfaces of the entries, for add_meshes(); none of a 2D volume.
+/// A picture of every entry, in their order. Returns the coarse surfaces of the entries, for page_meshes(); none of a 2D volume.
+/// drawn: as of draw_cards(). Cost: a surface each, drawn options.frames times.
 [[nodiscard]] std::vector<CoarseSurface> draw_pictures(PageContents& contents, const StoreSides& sides, const PageOptions& options,
-                                                       const Context& context);
-/// Shares the bytes of text among the entries.
-void add_meshes(PageContents& contents, const std::vector<CoarseSurface>& surfaces, std::int64_t max_bytes, const Context& context);
+                                                       const std::function<void(std::size_t)>& drawn, const Context& context);
 
 }  // namespace isoatlas

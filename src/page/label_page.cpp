@@ -5,9 +5,7 @@
 #include <functional>
 #include <vector>
 
-#include "base/cancel.h"
-#include "base/phase.h"
-#include "catalogue/turntable.h"
+#include "catalogue/draw_cards.h"
 #include "isoatlas/environment.h"
 #include "isoatlas/labels.h"
 #include "isoatlas/units.h"
@@ -38,37 +36,25 @@ Volume mask_of(const Volume& volume, std::int64_t label) {
     return mask;
 }
 
-/// Draws its picture; use(surface): before that, of a 3D volume.
-void draw(const Volume& volume, Interpolant interpolant, LabelCard& card, const PageOptions& options,
-          const std::function<void(const Surface&)>& use, const Context& context) {
-    if (volume.info.extent.rank == 2) {
-        card.picture = draw_still(mask_of(volume, card.region.label), 0.5, card.colour, options, context);
-        return;
-    }
-    ExtractOptions extracted{.interpolant = interpolant};
-    extracted.surface.ids = false;
-    Surface surface = extract_label(volume, card.region.label, extracted, context);
-    use(surface);
-    card.picture = draw_turntable(std::move(surface), card.colour, options, context);
-}
-
-void draw_all(const Volume& volume, Interpolant interpolant, std::span<LabelCard> cards, const PageOptions& options,
-              const std::function<void(const Surface&)>& use, const Context& context) {
-    Context silent = context;
-    silent.progress = nullptr;
-    for (std::size_t i = 0; i < cards.size(); ++i) {
-        report(context, only_phase("draw"), static_cast<double>(i) / static_cast<double>(cards.size()));
-        stop_if_cancelled(context);
-        draw(volume, interpolant, cards[i], options, use, silent);
-    }
-}
-
-/// As many triangles each as fit in the bytes together. surfaces: of the cards; none of a 2D volume.
-void add_meshes(const std::vector<CoarseSurface>& surfaces, std::span<LabelCard> cards, std::int64_t bytes, const Context& context) {
-    for (std::size_t i = 0; i < surfaces.size(); ++i) {
-        cards[i].mesh = page_mesh(surfaces[i], bytes / static_cast<std::int64_t>(surfaces.size() - i), context);
-        bytes -= std::ssize(cards[i].mesh.data);
-    }
+/// Returns the coarse surfaces of the cards; none of a 2D volume.
+std::vector<CoarseSurface> draw_labels(const Volume& volume, Interpolant interpolant, std::span<LabelCard> cards,
+                                       const PageOptions& options, const std::function<void(std::size_t)>& drawn, const Context& context) {
+    const bool is_flat = volume.info.extent.rank == 2;
+    std::vector<CoarseSurface> surfaces(is_flat ? 0 : cards.size());
+    const auto draw = [&](std::size_t i, const Context& own) {
+        LabelCard& card = cards[i];
+        if (is_flat) {
+            card.picture = draw_still(mask_of(volume, card.region.label), 0.5, card.colour, options, own);
+            return;
+        }
+        ExtractOptions extracted{.interpolant = interpolant};
+        extracted.surface.ids = false;
+        CardPicture now = draw_card(extract_label(volume, card.region.label, extracted, own), card.colour, options, own);
+        card.picture = std::move(now.picture);
+        surfaces[i] = std::move(now.coarse);
+    };
+    draw_cards(cards.size(), draw, drawn, context);
+    return surfaces;
 }
 
 /// Largest first.
@@ -160,21 +146,15 @@ PageReport write_label_page(const std::string& path, const Volume& volume, Inter
     silent.progress = nullptr;
     const std::span drawn(cards.data(), static_cast<std::size_t>(shown));
     const auto text_of = [&](bool is_complete) { return json_of(volume, interpolant, cards, table.background, options, is_complete); };
-    PageReport page{.objects = shown, .hidden = std::ssize(cards) - shown};
-    if (options.stills_written) {
-        PageOptions still = options;
-        still.frames = 1;
-        draw_all(volume, interpolant, drawn, still, [](const Surface&) {}, context);
-        page.bytes = write_page_file(path, text_of(false));
-        options.stills_written(page);
-    }
-    std::vector<CoarseSurface> surfaces;
-    draw_all(
-        volume, interpolant, drawn, options, [&](const Surface& surface) { surfaces.push_back(coarse_for_page(surface, silent)); },
-        context);
-    add_meshes(surfaces, drawn, bytes_for_meshes(text_of(true), shown), silent);
-    page.bytes = write_page_file(path, text_of(true));
-    return page;
+    const auto tell = [&](std::size_t pictures) {
+        if (!options.partly_written) return;
+        write_page_file(path, text_of(false));
+        options.partly_written(static_cast<std::int64_t>(pictures));
+    };
+    const std::vector<CoarseSurface> surfaces = draw_labels(volume, interpolant, drawn, options, tell, context);
+    const std::vector<PageMesh> meshes = page_meshes(surfaces, bytes_for_meshes(text_of(true), shown), silent);
+    for (std::size_t i = 0; i < meshes.size(); ++i) drawn[i].mesh = meshes[i];
+    return {.objects = shown, .hidden = std::ssize(cards) - shown, .bytes = write_page_file(path, text_of(true))};
 }
 
 }  // namespace isoatlas

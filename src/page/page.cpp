@@ -49,17 +49,18 @@ PageReport write_page(const std::string& path, const Atlas& atlas, const PageOpt
         write_page_json(stream, sides, contents, source);
         return json;
     };
-    PageReport report = report_of(contents);
-    if (options.stills_written) {
-        draw_stills(contents, sides, options, context);
+    const auto drawn = [&](std::size_t pictures) {
+        if (!options.partly_written) return;
         contents.is_complete = false;
-        report.bytes = write_page_file(path, text_of());
+        write_page_file(path, text_of());
         contents.is_complete = true;
-        options.stills_written(report);
-    }
-    const std::vector<CoarseSurface> surfaces = draw_pictures(contents, sides, options, context);
+        options.partly_written(static_cast<std::int64_t>(pictures));
+    };
+    const std::vector<CoarseSurface> surfaces = draw_pictures(contents, sides, options, drawn, context);
     if (contents.smoothing) contents.comparison = compare_smoothing(atlas, contents.smoothing->sigma, options, context);
-    add_meshes(contents, surfaces, bytes_for_meshes(text_of(), std::ssize(surfaces)), context);
+    const std::vector<PageMesh> meshes = page_meshes(surfaces, bytes_for_meshes(text_of(), std::ssize(surfaces)), context);
+    for (std::size_t i = 0; i < meshes.size(); ++i) contents.entries[i].mesh = meshes[i];
+    PageReport report = report_of(contents);
     report.bytes = write_page_file(path, text_of());
     return report;
 }

@@ -202,7 +202,7 @@ describe.skipIf(!browserFile || !existsSync(bundled))("a page that turns", () =>
       expect(await tab.evaluate(() => document.documentElement.scrollWidth)).toBeLessThanOrEqual(width);
       await tab.keyboard.press("Escape");
       expect(await violations(tab)).toEqual([]);
-      expect(await tab.locator("header .assumed").textContent()).toContain("Still pictures only");
+      expect(await tab.locator("header .assumed").textContent()).toContain("still drawing");
       expect(await tab.locator("text=Reload").count()).toBe(1);
       expect(problems).toEqual([]);
       await tab.close();
@@ -215,7 +215,7 @@ describe.skipIf(!browserFile || !existsSync(bundled))("a page that turns", () =>
       labels: [],
     };
     const { tab } = await open(data);
-    expect(await tab.locator("header .assumed").textContent()).toContain("Still pictures only");
+    expect(await tab.locator("header .assumed").textContent()).toContain("still drawing");
     expect(await violations(tab)).toEqual([]);
     await tab.close();
   });

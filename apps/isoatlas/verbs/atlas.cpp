@@ -45,9 +45,11 @@ std::optional<PageSmoothing> smoothing_of(const Arguments& arguments, const Volu
 
 }  // namespace
 
-std::function<void(const PageReport&)> tell_stills(Terminal& terminal, const std::string& page) {
-    return [&terminal, page](const PageReport& first) {
-        terminal.say("note: " + page + " has its " + counted(first.objects, "picture") + "; they turn when the page is complete");
+std::function<void(std::int64_t)> tell_first_pictures(Terminal& terminal, const std::string& page) {
+    return [&terminal, page, is_first = true](std::int64_t pictures) mutable {
+        if (is_first)
+            terminal.say("note: " + page + " has its first " + counted(pictures, "picture") + "; open it now, and reload it for more");
+        is_first = false;
     };
 }
 
@@ -76,7 +78,7 @@ int run_atlas(const Arguments& arguments, Terminal& terminal) {
                                   .source = store,
                                   .notes = notes_of(arguments, atlas),
                                   .smoothing = smoothing_of(arguments, atlas.info(), page),
-                                  .stills_written = tell_stills(terminal, page)};
+                                  .partly_written = tell_first_pictures(terminal, page)};
         report = write_page(page, atlas, options, session.context());
     }
     if (arguments.json) {

@@ -77,7 +77,7 @@ int run_label_page(const Arguments& arguments, Terminal& terminal) {
     const PageOptions options{.top = arguments.top > 0 ? arguments.top : kPictures,
                               .source = shell_word(arguments.file) + reading_options(arguments),
                               .notes = notes,
-                              .stills_written = tell_stills(terminal, page)};
+                              .partly_written = tell_first_pictures(terminal, page)};
     PageReport report;
     {
         const WritingGuard guard;

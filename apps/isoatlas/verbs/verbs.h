@@ -18,8 +18,8 @@ int run_tree(const Arguments& arguments, Terminal& terminal);
 int run_objects(const Arguments& arguments, Terminal& terminal);
 int run_measure(const Arguments& arguments, Terminal& terminal);
 int run_extract(const Arguments& arguments, Terminal& terminal);
-/// Says that a page has its still pictures (PageOptions::stills_written).
-[[nodiscard]] std::function<void(const PageReport&)> tell_stills(Terminal& terminal, const std::string& page);
+/// Says once that a page has its first pictures (PageOptions::partly_written).
+[[nodiscard]] std::function<void(std::int64_t)> tell_first_pictures(Terminal& terminal, const std::string& page);
 /// `objects` and `extract` of a label volume.
 int list_label_objects(const Arguments& arguments, Terminal& terminal);
 int extract_label_objects(const Arguments& arguments, Terminal& terminal);

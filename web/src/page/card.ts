@@ -26,7 +26,7 @@ export function card(page: Page, i: number, open: (i: number) => void): HTMLElem
   title.addEventListener("click", () => open(i));
   const picture = entry.picture
     ? turntable(entry.picture, `Picture of ${describe(page, i)}`)
-    : html("div", { class: "turntable missing" }, "no picture");
+    : html("div", { class: "turntable missing" }, page.complete === false ? "being drawn" : "no picture");
   picture.addEventListener("click", () => open(i));
   const isMain = branchOf(page, entry.branch).merges === null;
   const isChip = entry.enclosed === true;

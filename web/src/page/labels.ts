@@ -16,7 +16,7 @@ export interface LabelPage {
   interpolant: string;
   /** voxels of label 0 */
   background: number;
-  /** false: with still pictures only, while isoatlas draws the others */
+  /** false: without some of the pictures and all meshes, while isoatlas draws them */
   complete?: boolean;
   labels: Label[];
 }

@@ -3,5 +3,5 @@ import { html } from "../shared/dom";
 
 export function unfinished(): HTMLElement {
   const reload = html("button", { type: "button", click: () => location.reload() }, "Reload");
-  return html("p", { class: "assumed" }, "Still pictures only: isoatlas was drawing the rest when this page was opened. ", reload);
+  return html("p", { class: "assumed" }, "isoatlas was still drawing when this page was opened: pictures are missing, and none turns. ", reload);
 }

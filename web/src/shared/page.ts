@@ -213,7 +213,7 @@ export interface Page {
   curve: Curve;
   branches: Branch[];
   entries: Entry[];
-  /** false: with still pictures only, while isoatlas draws the others; absent: true */
+  /** false: without some of the pictures and all meshes, while isoatlas draws them; absent: true */
   complete?: boolean;
   /** entries that are not on the page, by number from entries.length on: viewer/api/catalogue.ts */
   further?: (i: number) => Entry | undefined;
