@@ -5,6 +5,7 @@
 #include <cerrno>
 #include <cstdlib>
 #include <cstring>
+#include <filesystem>
 #include <fstream>
 #include <sstream>
 #include <streambuf>
@@ -26,12 +27,14 @@ namespace {
                                       .next = error == EPIPE ? "keep the reader of the pipe open" : "send it to a place with free space"});
 }
 
-/// Is there a program of this name on the path of the shell?
+/// Is there a program of this name on the path of the shell? There, nothing between two colons is the current folder.
 bool is_on_path(const std::string& name) {
     const char* path = std::getenv("PATH");
     std::istringstream folders(path == nullptr ? "" : path);
     for (std::string folder; std::getline(folders, folder, ':');) {
-        if (::access((folder + "/" + name).c_str(), X_OK) == 0) return true;
+        const std::string file = (folder.empty() ? "." : folder) + "/" + name;
+        std::error_code none;
+        if (std::filesystem::is_regular_file(file, none) && ::access(file.c_str(), X_OK) == 0) return true;
     }
     return false;
 }

@@ -3,5 +3,6 @@ import { html } from "../shared/dom";
 
 export function unfinished(): HTMLElement {
   const reload = html("button", { type: "button", click: () => location.reload() }, "Reload");
-  return html("p", { class: "assumed" }, "isoatlas was still drawing when this page was opened: pictures are missing, and none turns. ", reload);
+  const words = "isoatlas was still drawing when this page was opened: pictures are missing, and none turns. ";
+  return html("p", { class: "assumed" }, words, reload);
 }
