@@ -13,7 +13,7 @@
 namespace isoatlas {
 
 CardPicture draw_card(Surface surface, const Colour& colour, const PageOptions& options, const Context& context) {
-    constexpr std::int64_t kTrianglesOfPixel = 2;
+    constexpr std::int64_t kTrianglesOfPixel = 6;
     CardPicture card{.picture = {}, .coarse = coarse_for_page(surface, context)};
     const auto most = static_cast<std::size_t>(kTrianglesOfPixel * options.picture_size * options.picture_size);
     card.picture = draw_turntable(coarse_surface(std::move(surface), most), colour, options, context);

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <set>
 
+#include "base/phase.h"
 #include "catalogue/compare_smoothing.h"
 #include "catalogue/joined_contents.h"
 #include "catalogue/longest_tunnels.h"
@@ -38,8 +39,6 @@ PageReport write_page(const std::string& path, const Atlas& atlas, const PageOpt
     PageContents contents = sides.has_both()
                                 ? joined_contents(sides, overview_of(atlas, context), overview_of(*sides.low, context), options, context)
                                 : page_contents(atlas, overview_of(atlas, context), options, context);
-    add_tunnels(contents, atlas, context);
-    if (sides.has_both()) add_tunnels(contents, *sides.low, context);
     contents.notes = options.notes;
     contents.smoothing = options.smoothing;
     const std::string source = options.source.empty() ? atlas.info().path : options.source;
@@ -57,12 +56,15 @@ PageReport write_page(const std::string& path, const Atlas& atlas, const PageOpt
         options.partly_written(static_cast<std::int64_t>(pictures));
     };
     const std::vector<CoarseSurface> surfaces = draw_pictures(contents, sides, options, drawn, context);
+    report(context, only_phase("find the longest tunnels"), 0);  // after the pictures: of a CT it takes as long as they
+    add_tunnels(contents, atlas, context);
+    if (sides.has_both()) add_tunnels(contents, *sides.low, context);
     if (contents.smoothing) contents.comparison = compare_smoothing(atlas, contents.smoothing->sigma, options, context);
     const std::vector<PageMesh> meshes = page_meshes(surfaces, bytes_for_meshes(text_of(), std::ssize(surfaces)), context);
     for (std::size_t i = 0; i < meshes.size(); ++i) contents.entries[i].mesh = meshes[i];
-    PageReport report = report_of(contents);
-    report.bytes = write_page_file(path, text_of());
-    return report;
+    PageReport made = report_of(contents);
+    made.bytes = write_page_file(path, text_of());
+    return made;
 }
 
 }  // namespace isoatlas
