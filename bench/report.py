@@ -1,13 +1,15 @@
 #!/usr/bin/env python3
 """Renders the tables of docs/performance.md from what the benchmarks wrote.
 
-    report.py FOLDER [PAGE]   FOLDER holds engine.json and, if measured, extract.json, store.json, render.json; PAGE: docs/performance.md
+    report.py FOLDER [PAGE]   FOLDER holds what was measured: engine.json, extract.json, store.json, render.json, pages.json; PAGE:
+                             docs/performance.md
 """
 import json
-import platform
 import re
 import sys
 from pathlib import Path
+
+from machine import in_words
 
 
 def table(header, rows):
@@ -24,14 +26,7 @@ def dims(record):
     return "x".join(str(n) for n in record["size"])
 
 
-def processor():
-    for line in Path("/proc/cpuinfo").read_text().splitlines():
-        if line.startswith("model name"):
-            return line.split(":", 1)[1].strip()
-    return platform.machine()
-
-
-GOALS = {"smooth-256": 0.25, "noisy-256": 1.5}
+GOALS = {"smooth-256": 0.15, "noisy-256": 1.0, "white-256": 2.0}
 NOISE = {"noisy-256", "white-256"}
 BETWEEN = {"seg3d_mr"}  # an MR image: neither CT-like nor noise
 
@@ -56,7 +51,7 @@ def engine_table(engine):
                      f"{r['peak_bytes_per_voxel']:.1f}", f"{r['peak_over_allowed']:.2f} {memory}"])
     header = ["volume", "size", "type", "critical elements", "sort, s", f"{engine['threads']} threads, s", "1 thread, s",
               "ratio to the sort (range)", "goal", "trilinear / faces", "elements with body points", "peak bytes a voxel", "peak / allowed"]
-    return f"{processor()}, {engine['pairs']} pairs.\n\n" + table(header, rows)
+    return table(header, rows)
 
 
 def phases_table(engine):
@@ -82,10 +77,40 @@ def growth_table(engine):
     return table(header, rows) if rows else None
 
 
-def generic_table(records):
+def store_goal(record, column):
+    """At least so many times faster."""
+    smooth = {0.2: 6, 2: 2.5, 4.4: 2}
+    if column == "times faster":
+        return smooth.get(round(record["active, %"], 1), 1) if record["volume"].startswith("smooth") else 1
+    if column == "again, times faster":
+        return 5 if record["volume"].startswith("smooth") else 2
+    return 2 if column.startswith("steps") else None
+
+
+def render_goal(_, column):
+    return 1 if column.endswith("times faster") else None
+
+
+def page_goal(record, column):
+    """At most so many seconds."""
+    small = record["volume"] == "headsq"
+    return {"five pictures, s": -2 if small else -5, "all, s": -8 if small else -15}.get(column)
+
+
+def cell(record, key, goal_of):
+    """In bold: the goal is missed. A negative goal: at most."""
+    number = record.get(key, "")
+    if not isinstance(number, float):
+        return number
+    goal = goal_of(record, key)
+    is_missed = goal is not None and (number > -goal if goal < 0 else number < goal)
+    return f"**{number:.4g}**" if is_missed else f"{number:.4g}"
+
+
+def generic_table(records, goal_of=lambda record, column: None):
     """A list of flat records, as the other benchmarks write it: the keys are the columns."""
     header = list(records[0])
-    rows = [[f"{r[key]:.4g}" if isinstance(r.get(key), float) else r.get(key, "") for key in header] for r in records]
+    rows = [[cell(r, key, goal_of) for key in header] for r in records]
     return table([name.replace("_", " ") for name in header], rows)
 
 
@@ -96,25 +121,30 @@ def replace(page, mark, text):
     return page if text is None else pattern.sub(lambda match: match.group(1) + text + "\n" + match.group(2), page)
 
 
+TABLES = [
+    ("engine", "engine", engine_table),
+    ("phases", "engine", phases_table),
+    ("growth", "engine", growth_table),  # measured with --growth only
+    ("extract", "extract", lambda document: generic_table(document["results"])),
+    ("store-builds", "store", lambda document: generic_table(document["builds"])),
+    ("store-surfaces", "store", lambda document: generic_table(document["surfaces"], store_goal)),
+    ("store-objects", "store", lambda document: generic_table(document["objects"])),
+    ("render", "render", lambda document: generic_table(document["pictures"], render_goal)),
+    ("pages", "pages", lambda document: generic_table(document["pages"], page_goal)),
+]
+
+
 def main():
     if len(sys.argv) not in (2, 3):
         sys.exit(__doc__)
     folder = Path(sys.argv[1])
     path = Path(sys.argv[2] if len(sys.argv) == 3 else "docs/performance.md")
     page = path.read_text()
-    engine = json.loads((folder / "engine.json").read_text())
-    page = replace(page, "engine", engine_table(engine))
-    page = replace(page, "phases", phases_table(engine))
-    if engine.get("growth"):  # measured with --growth only
-        page = replace(page, "growth", growth_table(engine))
-    if (folder / "extract.json").exists():
-        page = replace(page, "extract", generic_table(json.loads((folder / "extract.json").read_text())["results"]))
-    if (folder / "store.json").exists():
-        store = json.loads((folder / "store.json").read_text())
-        for part in ("builds", "surfaces", "objects"):
-            page = replace(page, f"store-{part}", generic_table(store[part]))
-    if (folder / "render.json").exists():
-        page = replace(page, "render", generic_table(json.loads((folder / "render.json").read_text())["pictures"]))
+    documents = {name: json.loads((folder / f"{name}.json").read_text()) for name in ("engine", "extract", "store", "render", "pages")
+                 if (folder / f"{name}.json").exists()}
+    for mark, name, make in TABLES:
+        text = make(documents[name]) if name in documents else None
+        page = replace(page, mark, text and in_words(documents[name]["machine"]) + "\n\n" + text)
     path.write_text(page)
     print(f"report: {path} is up to date")
 

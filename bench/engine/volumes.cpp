@@ -55,13 +55,17 @@ std::string data_path(const std::string& name, const Sources& sources) { return 
 
 Volume make(const std::string& name, const Sources& sources) {
     const std::size_t dash = name.rfind('-');
-    if (dash == std::string::npos) return isoatlas::load_volume(data_path(name, sources));
+    if (dash == std::string::npos) {
+        Volume volume = isoatlas::load_volume(data_path(name, sources));
+        if (const std::string path = sources.cache + "/" + name + ".raw"; !std::filesystem::exists(path)) write_cache(path, volume);
+        return volume;
+    }
     return make_field(name.substr(0, dash), std::stoll(name.substr(dash + 1)), sources);
 }
 
 std::vector<std::string> default_names(const Sources& sources) {
     std::vector<std::string> names{"smooth-256", "noisy-256", "u8-256", "white-256"};
-    for (const char* name : {"bonsai", "engine", "headsq", "seg3d_mr", "pet", "heptane", "frog_labels"}) {
+    for (const char* name : {"bonsai", "engine", "headsq", "seg3d_mr", "pet", "heptane", "emd3001", "frog_labels"}) {
         if (!sources.data.empty() && std::filesystem::exists(data_path(name, sources))) names.emplace_back(name);
     }
     return names;

@@ -8,7 +8,8 @@
 
 namespace bench {
 
-/// Where volumes come from. Generated fields are kept in `cache` (raw samples), because making them costs more than analysing them.
+/// Where volumes come from. Their samples are kept in `cache`, NAME.raw: making fields costs more than analysing them, and
+/// scripts beside read them.
 struct Sources {
     std::string cache;  ///< folder; must exist
     std::string data;   ///< folder with NAME/NAME.nrrd; empty: no real data

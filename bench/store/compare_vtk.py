@@ -3,7 +3,7 @@
 contouring it (cold); one small object; opening; building. Answers first, then medians of runs in turns.
 
     compare_vtk.py BENCH_STORE [--volumes smooth-512 noisy-256 white-256] [--active 0.002 0.02 0.1 0.5] [--threads 2] [--pairs 5]
-                   [--cache FOLDER] [--json FILE]
+                   [--cache FOLDER] [--data FOLDER] [--json FILE]
 
 A quick look: --volumes smooth-64 white-64 --pairs 2. Cold files: their pages are dropped before every run; "cold disk" says what then
 really came from the disk, 0 where the system does not drop pages. Needs python3-vtk9 and numpy (Debian packages; the system's python3).
@@ -24,7 +24,8 @@ from vtk.util.numpy_support import numpy_to_vtk
 sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
 from flying_edges import crossed, flying_edges
 
-TYPES = {"uint8": np.uint8, "float32": np.float32}
+TYPES = {"uint8": np.uint8, "int16": np.int16, "uint16": np.uint16, "float32": np.float32}
+REAL = ["bonsai", "engine", "pet", "seg3d_mr", "emd3001", "frog_labels"]  # CT twice, PET, MR, electron microscopy, labels
 
 
 def ours(program, *arguments):
@@ -94,8 +95,8 @@ def seconds_of_reading_and_contouring(field, tau):
     return time.perf_counter() - start
 
 
-def check(program, store, tau, volume, field, image, cache):
-    if not ours(program, "check", store, tau, volume, "--cache", cache)["same_as_the_volume"]:
+def check(program, store, tau, volume, field, image, sources):
+    if not ours(program, "check", store, tau, volume, *sources)["same_as_the_volume"]:
         sys.exit(f"{volume} at {tau}: the surface of the store is not that of the volume")
     edges = flying_edges(image, tau)
     edges.Update()
@@ -145,7 +146,8 @@ def object_record(program, store, volume, tau, arguments):
 def measure(volume, arguments, document):
     program, cache = os.path.abspath(arguments.program), arguments.cache
     store = cache / f"{volume}.atlas"
-    built = ours(program, "build", volume, store, "--cache", cache, "--threads", arguments.threads)
+    sources = ["--cache", cache] + (["--data", arguments.data] if arguments.data else [])
+    built = ours(program, "build", volume, store, *sources, "--threads", arguments.threads)
     document["builds"].append({"volume": volume, "size": "x".join(map(str, built["size"])), "type": built["type"],
                                "build, s": built["seconds"], "ns a voxel": built["ns_per_voxel"], "bytes a voxel": built["bytes_per_voxel"],
                                "bytes of a sample": built["sample_bytes"]})
@@ -154,7 +156,7 @@ def measure(volume, arguments, document):
     image = field.image()
     isovalues = sorted({field.isovalue_of(fraction) for fraction in arguments.active}, reverse=True)
     for tau in isovalues:
-        check(program, store, tau, volume, field, image, cache)
+        check(program, store, tau, volume, field, image, sources)
         document["surfaces"].append(surface_record(program, store, volume, field, image, tau, arguments))
         print(document["surfaces"][-1], flush=True)
     document["objects"].append(object_record(program, store, volume, isovalues[0], arguments))
@@ -165,7 +167,8 @@ def measure(volume, arguments, document):
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("program")
-    parser.add_argument("--volumes", nargs="+", default=["smooth-512", "noisy-256", "white-256"])
+    parser.add_argument("--volumes", nargs="+", help="default: fields, and real ones where --data is given")
+    parser.add_argument("--data", type=Path, help="folder with NAME/NAME.nrrd")
     parser.add_argument("--active", type=float, nargs="+", default=[0.002, 0.02, 0.1, 0.5], help="fractions of active cells")
     parser.add_argument("--threads", type=int, default=2)
     parser.add_argument("--pairs", type=int, default=5)
@@ -175,7 +178,7 @@ def main():
     arguments.cache.mkdir(parents=True, exist_ok=True)
     vtk.vtkSMPTools.Initialize(arguments.threads)
     document = {"threads": arguments.threads, "pairs": arguments.pairs, "builds": [], "surfaces": [], "objects": []}
-    for volume in arguments.volumes:
+    for volume in arguments.volumes or ["smooth-512", "noisy-256", "white-256"] + (REAL if arguments.data else []):
         measure(volume, arguments, document)
     if arguments.json:
         arguments.json.write_text(json.dumps(document, indent=1))

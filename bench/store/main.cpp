@@ -1,10 +1,10 @@
 // bench_store: what do a store and its queries cost?
 //
-//   bench_store build VOLUME STORE [--cache FOLDER] [--threads N]     VOLUME: as in bench_engine, e.g. smooth-256
+//   bench_store build VOLUME STORE [--cache FOLDER] [--data FOLDER] [--threads N]   VOLUME: as in bench_engine
 //   bench_store surface STORE TAU [--threads N] [--repeats N]         the whole isosurface: warm, again, cold
 //   bench_store steps STORE TAU [--threads N] [--repeats N]           steps of a Navigator by 0.5 % of the range, up from TAU
 //   bench_store object STORE TAU [--threads N] [--repeats N] [--voxels N]   one object of about that many voxels (1000)
-//   bench_store check STORE TAU VOLUME [--cache FOLDER]               is the surface that of the volume, byte for byte?
+//   bench_store check STORE TAU VOLUME [--cache FOLDER] [--data FOLDER]   is the surface that of the volume, byte for byte?
 //
 // Each prints one JSON document. Seconds are those of every repeat:
 //   open   opening the store, the file's pages in memory     warm   the query of an open store that holds no bricks
@@ -60,6 +60,8 @@ Arguments parse(int argc, char** argv) {
         };
         if (word == "--cache")
             arguments.sources.cache = value();
+        else if (word == "--data")
+            arguments.sources.data = value();
         else if (word == "--threads")
             arguments.context.threads = std::stoi(value());
         else if (word == "--repeats")

@@ -1,0 +1,80 @@
+#!/usr/bin/env python3
+"""When has a page its first five pictures, when all? From the volume file alone: store and page are made.
+
+    first_pictures.py ISOATLAS VOLUME... [--repeats 3] [--json FILE]
+
+The yardstick is the store of the same volume, built in turns: a page is a store and its pictures. Medians. Answers first: every card has a
+picture, and a surface to turn or a page that is full.
+"""
+import argparse
+import json
+import os
+import re
+import shutil
+import statistics
+import subprocess
+import sys
+import tempfile
+import time
+from pathlib import Path
+
+
+def run(command, folder):
+    """Seconds, those until the note about the first pictures (None: it came at the end), processor seconds, bytes resident at most."""
+    start = time.perf_counter()
+    process = subprocess.Popen(command, cwd=folder, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
+    first = None
+    words = []
+    for line in process.stderr:
+        words.append(line)
+        if "has its first" in line:
+            first = first or time.perf_counter() - start
+    _, status, used = os.wait4(process.pid, 0)
+    if status != 0:
+        sys.exit("".join(words))
+    return time.perf_counter() - start, first, used.ru_utime + used.ru_stime, used.ru_maxrss * 1024
+
+
+def pictures_of(page):
+    data = json.loads(re.search(r'id="atlas-data" type="application/json">(.*?)</script>', page.read_text(), re.S)[1])
+    if not data["complete"] or any(entry["picture"] is None for entry in data["entries"]):
+        sys.exit(f"{page}: pictures are missing")
+    return len(data["entries"]), sum(entry["mesh"] is not None for entry in data["entries"])
+
+
+def measure(program, volume, repeats):
+    stores, pages = [], []
+    for _ in range(repeats):
+        folder = Path(tempfile.mkdtemp(prefix="isoatlas-bench-"))
+        try:
+            stores.append(run([program, "build", volume, "-o", "alone.atlas", "--quiet"], folder)[0])
+            pages.append(run([program, volume, "-o", "page.html"], folder))
+            pictures, solids = pictures_of(folder / "page.html")
+            size = (folder / "page.html").stat().st_size
+        finally:
+            shutil.rmtree(folder)
+    store, all_seconds = statistics.median(stores), statistics.median(page[0] for page in pages)
+    first = statistics.median(page[1] or page[0] for page in pages)
+    return {"volume": Path(volume).stem, "pictures": pictures, "that turn": solids, "store, s": store, "five pictures, s": first,
+            "all, s": all_seconds, "processor seconds": statistics.median(page[2] for page in pages), "all, in stores": all_seconds / store,
+            "peak MB": statistics.median(page[3] for page in pages) / 1e6, "page MB": size / 1e6}
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("program")
+    parser.add_argument("volumes", nargs="+")
+    parser.add_argument("--repeats", type=int, default=3)
+    parser.add_argument("--json", type=Path)
+    arguments = parser.parse_args()
+    records = []
+    for volume in arguments.volumes:
+        records.append(measure(os.path.abspath(arguments.program), os.path.abspath(volume), arguments.repeats))
+        print("{volume}: {pictures} pictures; store {store, s:.2f} s, first five {five pictures, s:.2f} s, all {all, s:.2f} s".format(
+            **records[-1]), flush=True)
+    if arguments.json:
+        arguments.json.write_text(json.dumps({"pages": records}, indent=1))
+
+
+if __name__ == "__main__":
+    main()
