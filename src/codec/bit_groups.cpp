@@ -127,11 +127,68 @@ ISOATLAS_AVX512 void read_groups_wide(const std::byte* from, std::span<const std
 }
 #endif
 
+#if ISOATLAS_HAS_AVX512  // of that family of processors
+/// Words 0 .. whole - 1 of a group as they are, its bits as word `whole`, then nothing.
+template <class N>
+struct WordMasks {
+    alignas(32) std::array<std::array<std::uint64_t, 4>, sizeof(N) + 1> kept{}, bits{};
+
+    constexpr WordMasks() {
+        for (std::size_t whole = 0; whole <= sizeof(N); ++whole) {
+            for (std::size_t k = 0; k < 4; ++k)
+                kept[whole][k] = k < whole ? ~std::uint64_t{0} : 0, bits[whole][k] = k == whole ? ~std::uint64_t{0} : 0;
+        }
+    }
+};
+template <class N>
+constexpr WordMasks<N> kWordMasks;
+
+/// 32 bits: the words are four by eight bytes, the numbers eight by four.
+template <class N>
+    requires(sizeof(N) == 4)
+ISOATLAS_FUSED void read_groups_avx2(const std::byte* from, std::span<const std::uint8_t> widths, N* numbers) {
+    const __m256i halves = _mm256_setr_epi32(0, 2, 4, 6, 1, 3, 5, 7);  // of the words: numbers 0 to 3, 4 to 7
+    const __m256i bytes =
+        _mm256_setr_epi8(0, 4, 8, 12, 1, 5, 9, 13, 2, 6, 10, 14, 3, 7, 11, 15, 0, 4, 8, 12, 1, 5, 9, 13, 2, 6, 10, 14, 3, 7, 11, 15);
+    for (const int width : widths) {
+        const auto whole = static_cast<std::size_t>(width / 8);
+        const std::uint64_t bits = transposed(word_at(from + 8 * whole) & ((std::uint64_t{1} << width % 8 * 8) - 1));
+        const auto* kept = reinterpret_cast<const __m256i*>(kWordMasks<N>.kept[whole].data());
+        const auto* last = reinterpret_cast<const __m256i*>(kWordMasks<N>.bits[whole].data());
+        __m256i words = _mm256_and_si256(_mm256_loadu_si256(reinterpret_cast<const __m256i*>(from)), _mm256_load_si256(kept));
+        words = _mm256_or_si256(words, _mm256_and_si256(_mm256_set1_epi64x(static_cast<long long>(bits)), _mm256_load_si256(last)));
+        words = _mm256_shuffle_epi8(_mm256_permutevar8x32_epi32(words, halves), bytes);
+        _mm256_storeu_si256(reinterpret_cast<__m256i*>(numbers), words);
+        from += width, numbers += kGroup;
+    }
+}
+
+/// 16 bits: two by eight bytes.
+template <class N>
+    requires(sizeof(N) == 2)
+ISOATLAS_FUSED void read_groups_avx2(const std::byte* from, std::span<const std::uint8_t> widths, N* numbers) {
+    const __m128i bytes = _mm_setr_epi8(0, 8, 1, 9, 2, 10, 3, 11, 4, 12, 5, 13, 6, 14, 7, 15);
+    for (const int width : widths) {
+        const auto whole = static_cast<std::size_t>(width / 8);
+        const std::uint64_t bits = transposed(word_at(from + 8 * whole) & ((std::uint64_t{1} << width % 8 * 8) - 1));
+        const auto* kept = reinterpret_cast<const __m128i*>(kWordMasks<N>.kept[whole].data());
+        const auto* last = reinterpret_cast<const __m128i*>(kWordMasks<N>.bits[whole].data());
+        __m128i words = _mm_and_si128(_mm_loadu_si128(reinterpret_cast<const __m128i*>(from)), _mm_load_si128(kept));
+        words = _mm_or_si128(words, _mm_and_si128(_mm_set1_epi64x(static_cast<long long>(bits)), _mm_load_si128(last)));
+        _mm_storeu_si128(reinterpret_cast<__m128i*>(numbers), _mm_shuffle_epi8(words, bytes));
+        from += width, numbers += kGroup;
+    }
+}
+#endif
+
 /// Consecutive groups; kLookedAt bytes are readable from the start of the last one.
 template <class N>
 void read_groups(const std::byte* from, std::span<const std::uint8_t> widths, N* numbers) {
 #if ISOATLAS_HAS_AVX512
     if (kHasAvx512) return read_groups_wide(from, widths, numbers);
+    if constexpr (sizeof(N) == 2 || sizeof(N) == 4) {
+        if (kHasFused) return read_groups_avx2(from, widths, numbers);
+    }
 #endif
     for (const int width : widths) {
         read_group(from, width, numbers);

@@ -6,7 +6,7 @@
 #include "base/sample_types.h"
 #include "critical/body_saddle.h"
 #include "critical/tunnels.h"
-#include "mesh/cells_avx512.h"
+#include "mesh/vector_cells.h"
 
 namespace isoatlas {
 namespace {

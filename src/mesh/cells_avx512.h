@@ -132,26 +132,3 @@ ISOATLAS_AVX512 void write_avx512(const CellRow<4>& rows, const CellWindow& wind
 }  // namespace isoatlas
 
 #endif
-
-namespace isoatlas {
-
-/// count_plain(), by AVX-512 where the processor has it.
-template <class Rest>
-void count_plain_cells(const CellRow<4>& rows, const CellWindow& window, const PlainCells& cells, RowOffsets& place, Rest&& rest) {
-#if ISOATLAS_HAS_AVX512
-    if (kHasAvx512) return count_avx512(rows, window, cells, place, rest);
-#endif
-    count_plain(rows, window, cells, place, rest);
-}
-
-/// write_plain(), by AVX-512 where the processor has it.
-template <class Rest>
-void write_plain_cells(const CellRow<4>& rows, const CellWindow& window, const PlainCells& cells, const HitCounters& first,
-                       std::array<std::int64_t, 3>* triangle, const std::array<std::int64_t, 3>* end, Rest&& rest) {
-#if ISOATLAS_HAS_AVX512
-    if (kHasAvx512) return write_avx512(rows, window, cells, first, triangle, end, rest);
-#endif
-    write_plain(rows, window, cells, first, triangle, end, rest);
-}
-
-}  // namespace isoatlas

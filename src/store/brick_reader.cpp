@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstring>
 #include <limits>
+#include <memory>
 #include <utility>
 
 #include "base/cancel.h"
@@ -180,7 +181,9 @@ IoCounters BrickReader<T>::read(std::vector<BrickId> bricks, const Context& cont
     for_each_block(context.threads, static_cast<std::int64_t>(extents.size()), [&](std::int64_t e) {
         look();
         const Extent& extent = extents[static_cast<std::size_t>(e)];
-        std::vector<std::byte> bytes(static_cast<std::size_t>(extent.end - extent.begin));
+        const auto size = static_cast<std::size_t>(extent.end - extent.begin);
+        const auto memory = std::make_unique_for_overwrite<std::byte[]>(size);
+        const std::span<std::byte> bytes(memory.get(), size);
         if (!bytes.empty() && !store_.read_if_present(data_, extent.begin, bytes)) {
             prefetch(extents, static_cast<std::size_t>(e), prefetched);
             store_.read_unchecked(data_, extent.begin, bytes);
@@ -188,7 +191,7 @@ IoCounters BrickReader<T>::read(std::vector<BrickId> bricks, const Context& cont
         for (std::size_t i = extent.first; i < extent.last; ++i) {
             const BrickId brick = bricks[i];
             const std::int64_t begin = static_cast<std::int64_t>(offset_[brick.index()]) - extent.begin;
-            decode(brick, std::span(bytes).subspan(static_cast<std::size_t>(begin), static_cast<std::size_t>(bytes_of(brick))), sink);
+            decode(brick, bytes.subspan(static_cast<std::size_t>(begin), static_cast<std::size_t>(bytes_of(brick))), sink);
         }
     });
     return counters;

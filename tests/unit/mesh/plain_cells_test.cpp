@@ -1,11 +1,11 @@
-// Wide vectors count and write what the plain loops do, and call for the same other cells; hits of a word are appended alike.
+// Vectors count and write what the plain loops do, and call for the same other cells; hits of a word are appended alike.
 #include "mesh/plain_cells.h"
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
-#include "mesh/cells_avx512.h"
 #include "mesh/hit_batch.h"
+#include "mesh/vector_cells.h"
 
 namespace isoatlas {
 namespace {
@@ -34,8 +34,18 @@ HighBits arbitrary_bits(std::int64_t length) {
 using Triangles = std::vector<std::array<std::int64_t, 3>>;
 using Calls = std::vector<std::vector<std::int64_t>>;
 
-RC_GTEST_PROP(PlainCells, AreTheSameWithWideVectors, ()) {
-    if (!kHasAvx512) return;
+/// Calls check(count, write) for the kinds of vectors that the processor has.
+template <class Check>
+void for_vectors(const Check& check) {
+    if (kHasAvx512) check([](auto&&... of) { count_avx512(of...); }, [](auto&&... of) { write_avx512(of...); });
+    if (kHasFused)
+        check([](auto&&... of) { count_avx2(of...); },
+              [](const auto& rows, const auto& window, const auto& cells, const auto& first, auto* begin, auto* /*end*/, const auto& rest) {
+                  write_avx2(rows, window, cells, first, begin, rest);
+              });
+}
+
+RC_GTEST_PROP(PlainCells, AreTheSameWithVectors, ()) {
     const std::int64_t length = *rc::gen::inRange<std::int64_t>(2, 300);
     const HighBits high = arbitrary_bits(length);
     const bool tunnels = *rc::gen::arbitrary<bool>(), flip = *rc::gen::arbitrary<bool>(), closed = *rc::gen::arbitrary<bool>();
@@ -43,13 +53,9 @@ RC_GTEST_PROP(PlainCells, AreTheSameWithWideVectors, ()) {
     const CellWindow window = closed ? CellWindow::all(length) : CellWindow::real(length);
     const CellRow<4> rows = cell_row(high, 0, 0);
 
-    RowOffsets plain{}, wide{};
-    Calls plain_calls, wide_calls;
+    RowOffsets plain{};
+    Calls plain_calls;
     count_plain(rows, window, cells, plain, [&](std::int64_t p, int pattern) { plain_calls.push_back({p, pattern}); });
-    count_avx512(rows, window, cells, wide, [&](std::int64_t p, int pattern) { wide_calls.push_back({p, pattern}); });
-    RC_ASSERT(std::tie(plain.triangle, plain.x_hits, plain.y_hits, plain.z_hits, plain.hit_words, plain.cell_words) ==
-              std::tie(wide.triangle, wide.x_hits, wide.y_hits, wide.z_hits, wide.hit_words, wide.cell_words));
-    RC_ASSERT(plain_calls == wide_calls);
 
     const HitCounters first{0, 1000, 2000, 3000, 4000, 5000, 6000, 7000};
     const auto written = [&](const auto& write) {
@@ -68,16 +74,23 @@ RC_GTEST_PROP(PlainCells, AreTheSameWithWideVectors, ()) {
     };
     const auto with_loops =
         written([&](auto* begin, auto* end, const auto& rest) { write_plain(rows, window, cells, first, begin, end, rest); });
-    const auto with_vectors =
-        written([&](auto* begin, auto* end, const auto& rest) { write_avx512(rows, window, cells, first, begin, end, rest); });
-    RC_ASSERT(with_loops.first == with_vectors.first);
-    RC_ASSERT(with_loops.second == with_vectors.second);
+    for_vectors([&](const auto& count, const auto& write) {
+        RowOffsets place{};
+        Calls calls;
+        count(rows, window, cells, place, [&](std::int64_t p, int pattern) { calls.push_back({p, pattern}); });
+        RC_ASSERT(std::tie(plain.triangle, plain.x_hits, plain.y_hits, plain.z_hits, plain.hit_words, plain.cell_words) ==
+                  std::tie(place.triangle, place.x_hits, place.y_hits, place.z_hits, place.hit_words, place.cell_words));
+        RC_ASSERT(plain_calls == calls);
+        const auto with_vectors =
+            written([&](auto* begin, auto* end, const auto& rest) { write(rows, window, cells, first, begin, end, rest); });
+        RC_ASSERT(with_loops.first == with_vectors.first);
+        RC_ASSERT(with_loops.second == with_vectors.second);
+    });
     RC_ASSERT(with_loops.first.back() == (std::array<std::int64_t, 3>{-1, -1, -1}));
 }
 
 // Rows that are all the same but for one of them, from one place on: wherever words meet.
 TEST(PlainCells, AreCountedWhereOneRowChanges) {
-    if (!kHasAvx512) return;
     const PlainCells cells(SurfaceStyle::compact, false, false);
     const auto counted = [&](const HighBits& high, const auto& count) {
         RowOffsets place{};
@@ -97,8 +110,10 @@ TEST(PlainCells, AreCountedWhereOneRowChanges) {
                         high.row(row % 2, row / 2)[(x + 1) / 64] |= std::uint64_t{is_high} << (x + 1) % 64;
                     }
                 }
-                EXPECT_EQ(counted(high, [](auto&&... of) { count_plain(of...); }), counted(high, [](auto&&... of) { count_avx512(of...); }))
-                    << "row " << changed << " of " << length << " from " << from;
+                const auto expected = counted(high, [](auto&&... of) { count_plain(of...); });
+                for_vectors([&](const auto& count, const auto&) {
+                    EXPECT_EQ(expected, counted(high, count)) << "row " << changed << " of " << length << " from " << from;
+                });
             }
         }
     }
