@@ -6,8 +6,9 @@ import pathlib
 import re
 import sys
 
-BEGIN = re.compile(r"^\d+/\d+ Test(?:ing)?: (\S+)")
-END = re.compile(r"^Test (Passed|Failed)\.|^Test timed out|^Test not run")  # anything but "Passed" is a failure
+from skipped_tests import TEST
+
+END = re.compile(r"^Test (Passed|Failed)\.")
 KEPT = 80
 
 
@@ -16,7 +17,7 @@ def failed(lines):
     found, name, output = [], "", []
     for line in lines:
         line = line.rstrip("\n")
-        if match := BEGIN.match(line):
+        if match := TEST.match(line):
             name, output = match[1], []
         elif (match := END.match(line)) and name:
             if match[1] != "Passed":

@@ -59,4 +59,5 @@ def main():
         print(f"  {text}")
 
 
-main()
+if __name__ == "__main__":
+    main()

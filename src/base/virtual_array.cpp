@@ -4,7 +4,6 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <cstdint>
 #include <new>
 
 namespace isoatlas {
@@ -28,13 +27,7 @@ std::size_t VirtualArray::page_bytes() {
 void VirtualArray::commit([[maybe_unused]] std::size_t first, [[maybe_unused]] std::size_t bytes) {
 #ifdef MADV_POPULATE_WRITE
     const std::size_t begin = first / page_bytes() * page_bytes(), end = std::min(first + bytes, bytes_);
-    if (begin >= end) return;
-    constexpr std::size_t kHuge = std::size_t{2} << 20;  // one fault instead of 512, where all of it is wanted
-    const auto address = reinterpret_cast<std::uintptr_t>(data_);
-    const std::size_t huge_begin = (address + begin + kHuge - 1) / kHuge * kHuge - address,
-                      huge_end = (address + end) / kHuge * kHuge - address;
-    if (huge_begin < huge_end) (void)madvise(data_ + huge_begin, huge_end - huge_begin, MADV_HUGEPAGE);
-    (void)madvise(data_ + begin, end - begin, MADV_POPULATE_WRITE);
+    if (begin < end) (void)madvise(data_ + begin, end - begin, MADV_POPULATE_WRITE);
 #endif
 }
 

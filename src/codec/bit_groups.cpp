@@ -80,13 +80,18 @@ std::uint64_t word_at(const std::byte* from) {
     return word;
 }
 
+/// The bits that whole bytes leave of a group: the next bytes of its 8 numbers.
+[[gnu::always_inline]] inline std::uint64_t last_bytes(const std::byte* from, int width) {
+    return transposed(word_at(from + width / 8 * 8) & ((std::uint64_t{1} << width % 8 * 8) - 1));
+}
+
 /// Reads one group, branch-free.
 template <class N>
 [[gnu::always_inline]] inline void read_group(const std::byte* from, int width, N* group) {
-    const int whole = width / 8, left = width % 8;
+    const int whole = width / 8;
     std::array<std::uint64_t, sizeof(N) + 1> words;  // bytes k of the 8 numbers
     for (int k = 0; k < static_cast<int>(sizeof(N)); ++k) words[static_cast<std::size_t>(k)] = k < whole ? word_at(from + 8 * k) : 0;
-    words[static_cast<std::size_t>(whole)] = transposed(word_at(from + 8 * whole) & ((std::uint64_t{1} << 8 * left) - 1));
+    words[static_cast<std::size_t>(whole)] = last_bytes(from, width);
     const auto* bytes = reinterpret_cast<const std::uint8_t*>(words.data());
     std::array<N, kGroup> numbers{};
     for (std::size_t k = 0; k < sizeof(N); ++k) {
@@ -109,10 +114,10 @@ constexpr std::array<std::uint8_t, 64> kByteOrder = [] {
 /// The same in one permutation.
 template <class N>
 [[gnu::always_inline]] ISOATLAS_AVX512 inline void read_group_wide(const std::byte* from, int width, N* group) {
-    const int whole = width / 8, left = width % 8;
+    const int whole = width / 8;
     const auto low_bytes = [](int words) { return words >= 8 ? ~__mmask64{0} : (__mmask64{1} << 8 * words) - 1; };
     __m512i words = _mm512_maskz_loadu_epi8(low_bytes(whole), from);
-    const std::uint64_t bits = transposed(word_at(from + 8 * whole) & ((std::uint64_t{1} << 8 * left) - 1));
+    const std::uint64_t bits = last_bytes(from, width);
     words = _mm512_mask_set1_epi64(words, static_cast<__mmask8>(1U << whole), static_cast<long long>(bits));
     const __m512i numbers = _mm512_maskz_permutexvar_epi8(~__mmask64{0}, _mm512_loadu_si512(kByteOrder<N>.data()), words);
     _mm512_mask_storeu_epi8(group, low_bytes(sizeof(N)), numbers);
@@ -152,7 +157,7 @@ ISOATLAS_FUSED void read_groups_avx2(const std::byte* from, std::span<const std:
         _mm256_setr_epi8(0, 4, 8, 12, 1, 5, 9, 13, 2, 6, 10, 14, 3, 7, 11, 15, 0, 4, 8, 12, 1, 5, 9, 13, 2, 6, 10, 14, 3, 7, 11, 15);
     for (const int width : widths) {
         const auto whole = static_cast<std::size_t>(width / 8);
-        const std::uint64_t bits = transposed(word_at(from + 8 * whole) & ((std::uint64_t{1} << width % 8 * 8) - 1));
+        const std::uint64_t bits = last_bytes(from, width);
         const auto* kept = reinterpret_cast<const __m256i*>(kWordMasks<N>.kept[whole].data());
         const auto* last = reinterpret_cast<const __m256i*>(kWordMasks<N>.bits[whole].data());
         __m256i words = _mm256_and_si256(_mm256_loadu_si256(reinterpret_cast<const __m256i*>(from)), _mm256_load_si256(kept));
@@ -170,7 +175,7 @@ ISOATLAS_FUSED void read_groups_avx2(const std::byte* from, std::span<const std:
     const __m128i bytes = _mm_setr_epi8(0, 8, 1, 9, 2, 10, 3, 11, 4, 12, 5, 13, 6, 14, 7, 15);
     for (const int width : widths) {
         const auto whole = static_cast<std::size_t>(width / 8);
-        const std::uint64_t bits = transposed(word_at(from + 8 * whole) & ((std::uint64_t{1} << width % 8 * 8) - 1));
+        const std::uint64_t bits = last_bytes(from, width);
         const auto* kept = reinterpret_cast<const __m128i*>(kWordMasks<N>.kept[whole].data());
         const auto* last = reinterpret_cast<const __m128i*>(kWordMasks<N>.bits[whole].data());
         __m128i words = _mm_and_si128(_mm_loadu_si128(reinterpret_cast<const __m128i*>(from)), _mm_load_si128(kept));

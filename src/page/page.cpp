@@ -50,12 +50,12 @@ PageReport write_page(const std::string& path, const Atlas& atlas, const PageOpt
     };
     const auto drawn = [&](std::size_t pictures) {
         if (!options.partly_written) return;
-        contents.is_complete = false;
         write_page_file(path, text_of());
-        contents.is_complete = true;
         options.partly_written(static_cast<std::int64_t>(pictures));
     };
+    contents.is_complete = false;
     const std::vector<CoarseSurface> surfaces = draw_pictures(contents, sides, options, drawn, context);
+    contents.is_complete = true;
     report(context, only_phase("find the longest tunnels"), 0);  // after the pictures: of a CT it takes as long as they
     add_tunnels(contents, atlas, context);
     if (sides.has_both()) add_tunnels(contents, *sides.low, context);

@@ -20,6 +20,7 @@ import {
   type Layer,
 } from "../src/viewer/state/opacity_curve";
 import { renderOptions } from "../src/viewer/state/render_options";
+import { isHounsfield } from "../src/viewer/state/hounsfield";
 import { GREY } from "../src/viewer/state/slice_state";
 import { NOTHING, shownAt, type State } from "../src/viewer/state/state";
 import { VOLUME_CURVE, VOLUME_DENSITY, voxelLength } from "../src/viewer/state/volume_state";
@@ -242,10 +243,13 @@ describe("presets", () => {
     expect(low.map(({ name }) => name)).toContain("Only ≤ 60");
   });
   it("of CT are there for Hounsfield units only, and say so where the file does not", () => {
+    expect([isHounsfield(hu), isHounsfield(page)]).toEqual([true, false]);
     expect(named(hu, NOTHING)).toEqual(["Ramp over window", "CT bone", "CT soft tissue", "CT lung"]);
     const unsaid = { ...hu, volume: { ...hu.volume, valueUnit: null } };
+    expect(isHounsfield(unsaid)).toBeNull();
     expect(presetsOf(unsaid, NOTHING).at(-1)!.title).toContain("if the values are Hounsfield units");
     const shifted = { ...unsaid, volume: { ...unsaid.volume, low: 0, high: 3926 }, axis: { low: 0, high: 3926, bend: null } };
+    expect(isHounsfield(shifted)).toBe(false);
     expect(named(shifted, NOTHING)).toEqual(["Ramp over window"]);
     expect(named({ ...hu, axis: { low: -1024, high: 100, bend: null } }, NOTHING)).not.toContain("CT bone");
   });

@@ -6,6 +6,7 @@ import { anchorOf, describe, isCavity, nameOf, placeOf, rangeOf, reasonOf, shape
 import { rangeBar } from "../shared/overview";
 import { branchOf, entryOf, type Page } from "../shared/page";
 import { turntable } from "../shared/turntable";
+import { missingPicture } from "./unfinished";
 
 /** The other isovalues at which it looks much the same; those with a number open. */
 function others(page: Page, i: number, open: (i: number) => void): HTMLElement[] {
@@ -26,7 +27,7 @@ export function card(page: Page, i: number, open: (i: number) => void): HTMLElem
   title.addEventListener("click", () => open(i));
   const picture = entry.picture
     ? turntable(entry.picture, `Picture of ${describe(page, i)}`)
-    : html("div", { class: "turntable missing" }, page.complete === false ? "being drawn" : "no picture");
+    : missingPicture(page);
   picture.addEventListener("click", () => open(i));
   const isMain = branchOf(page, entry.branch).merges === null;
   const isChip = entry.enclosed === true;

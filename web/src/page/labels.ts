@@ -5,7 +5,7 @@ import { count, plural, value, volume } from "../shared/format";
 import type { PageMesh, Picture } from "../shared/page";
 import { turntable } from "../shared/turntable";
 import { turnButton } from "./turnable";
-import { unfinished } from "./unfinished";
+import { missingPicture, unfinished } from "./unfinished";
 
 /** Data as `isoatlas` writes them: docs/schema/label-page.schema.json. Largest label first. */
 export interface LabelPage {
@@ -66,7 +66,7 @@ function facts(page: LabelPage, label: Label): HTMLElement {
 function card(page: LabelPage, label: Label): HTMLElement {
   const picture = label.picture
     ? turntable(label.picture, `Picture of ${titleOf(label)}: ${volume(label.measure, page.volume.unit)}`)
-    : html("div", { class: "turntable missing" }, "no picture");
+    : missingPicture(page);
   const item = html(
     "li",
     { class: "card", id: `label-${label.label}` },
