@@ -1,6 +1,6 @@
 // bench_render: where does the time of a picture go?
 //
-//   bench_render VOLUME [--surface] [--size N] [--samples N] [--threads N] [--repeats N] [--flat] [--raw FILE] [--picture FILE]
+//   bench_render VOLUME [--surface] [--size N] [--samples N] [--threads N] [--repeats N] [--flat] [--step S] [--raw FILE] [--picture FILE]
 //
 // A volume as matter with the opacity that its tree proposes, or (--surface) its first object, seen from 30 degrees to the right and 20
 // above. Prints JSON: seconds of every phase and repeat, what was drawn and how. --raw writes the samples, --picture the RGBA bytes.
@@ -24,6 +24,7 @@ struct Arguments {
     std::string file, raw, picture;
     bool surface = false;
     int repeats = 3;
+    double step = 1;
     isoatlas::RenderOptions options{.width = 512, .height = 512, .background = isoatlas::Background::transparent, .samples = 1};
     isoatlas::Context context;
 };
@@ -48,6 +49,8 @@ Arguments parse(int argc, char** argv) {
             arguments.options.samples = std::stoi(next());
         else if (word == "--threads")
             arguments.context.threads = std::stoi(next());
+        else if (word == "--step")
+            arguments.step = std::stod(next());
         else if (word == "--repeats")
             arguments.repeats = std::stoi(next());
         else if (word == "--raw")
@@ -117,7 +120,8 @@ void measure(Arguments arguments) {
         phases.end();
     } else {
         const std::array<double, 2> range = range_of(volume);
-        scene.volume = {.volume = &volume, .tents = propose_transfer(table, volume.info, range), .range = range};
+        scene.volume = {
+            .volume = &volume, .tents = propose_transfer(table, volume.info, range), .range = range, .sample_distance = arguments.step};
     }
     const isoatlas::View view = isoatlas::view_from(30, 20);
     const isoatlas::Camera camera = fit_camera(scene, view, arguments.options);

@@ -84,6 +84,7 @@ struct SceneVolume {
     std::vector<TransferCurve> curves{};
     std::optional<std::array<double, 2>> range{};  ///< lowest and highest sample; unset: computed
     bool shadows = false;                          ///< single scattering of the key light: the medium and opaque surfaces cast shadows
+    double sample_distance = 1;                    ///< between two samples along a ray, in the smallest spacing; 0.05 to 16
 };
 
 struct Scene {
@@ -155,7 +156,7 @@ struct ScaleBar {
 /// pixel_size: physical size of a pixel.
 [[nodiscard]] ScaleBar scale_bar(double pixel_size, std::int64_t width, const std::string& unit);
 
-/// The picture. Throws Error: usage (sizes, opacity, a 2D surface), cancelled.
+/// The picture. Throws Error: usage (sizes, opacity, sample distance, a 2D surface), cancelled.
 /// Cost: O(triangles log triangles) once, then rays: some ten per pixel and sample.
 [[nodiscard]] Image render_scene(const Scene& scene, const Camera& camera, const RenderOptions& options = {}, const Context& context = {});
 

@@ -48,8 +48,10 @@ private:
     /// Exit points of a ray from blocks, or from cubes of empty blocks (Zuiderveld, Koning, Viergever: Acceleration of ray casting
     /// using 3D distance transforms, 1992).
     struct Leaps {
-        Leaps(const EmptySpaceGrid& blocks, const Vec3& o, const Vec3& w) : all(blocks), origin(o), way(w) {
+        Leaps(const EmptySpaceGrid& blocks, const Vec3& o, const Vec3& w) : all(blocks) {
+            constexpr double kBlock = 1.0 / static_cast<double>(BlockRanges::kSide);  // a power of two: nothing is rounded
             for (int a = 0; a < 3; ++a) {
+                origin[a] = o[a] * kBlock, way[a] = w[a] * kBlock;
                 forwards[a] = way[a] >= 0 ? 1 : 0;
                 inverse[a] = way[a] == 0 ? 1e300 : 1 / way[a];
             }
@@ -61,20 +63,19 @@ private:
         [[nodiscard]] Leap from(double t) const {
             std::int64_t at[3], block = 0;
             for (int a = 2; a >= 0; --a) {
-                at[a] =
-                    std::clamp(static_cast<std::int64_t>(origin[a] + t * way[a]) / BlockRanges::kSide, std::int64_t{0}, all.count_[a] - 1);
+                at[a] = std::clamp(static_cast<std::int64_t>(origin[a] + t * way[a]), std::int64_t{0}, all.count_[a] - 1);
                 block = block * all.count_[a] + at[a];
             }
             const std::int64_t distance = all.distance_[block], empty = std::max<std::int64_t>(0, distance - 1);
             double leave = INFINITY;
             for (int a = 0; a < 3; ++a) {
-                const std::int64_t edge = BlockRanges::kSide * (forwards[a] != 0 ? at[a] + 1 + empty : at[a] - empty);
+                const std::int64_t edge = forwards[a] != 0 ? at[a] + 1 + empty : at[a] - empty;
                 leave = std::min(leave, (static_cast<double>(edge) - origin[a]) * inverse[a]);
             }
             return {distance == 0, leave};
         }
         const EmptySpaceGrid& all;
-        Vec3 origin, way;
+        Vec3 origin, way;  ///< in blocks
         double inverse[3];
         int forwards[3];
     };

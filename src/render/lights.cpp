@@ -22,18 +22,21 @@ Lights::Lights(const CameraRays& camera)
     basis_of(key_, key_u_, key_v_);
 }
 
-Shade Lights::shade(const Vec3& albedo, const Vec3& normal, const Vec3& to_eye) const {
+Lights::Parts Lights::parts(const Vec3& normal, double towards, const Vec3& half) const {
     const double height = 0.5 + 0.5 * dot(normal, up_);
-    const double ambient = kGround + (kSky - kGround) * height + kEye * std::max(0.0, dot(normal, to_eye));
+    const double ambient = kGround + (kSky - kGround) * height + kEye * std::max(0.0, towards);
     const double facing = std::max(0.0, dot(normal, key_));
-    const double shine = shine_of(dot(normal, unit(add(key_, to_eye))));
-    const double highlight = facing > 0 ? kHighlight * shine : 0;
-    return {scale(albedo, ambient), add(scale(albedo, kKey * facing), {highlight, highlight, highlight})};
+    return {ambient, kKey * facing, facing > 0 ? kHighlight * shine_of(dot(normal, half)) : 0};
+}
+
+Shade Lights::shade(const Vec3& albedo, const Vec3& normal, const Vec3& to_eye) const {
+    const Parts part = parts(normal, dot(normal, to_eye), half_way(to_eye));
+    return {scale(albedo, part.ambient), add(scale(albedo, part.key), {part.highlight, part.highlight, part.highlight})};
 }
 
 Vec3 Lights::shade_sheet(const Vec3& albedo, const Vec3& normal, const Vec3& to_eye) const {
     const double facing = std::abs(dot(normal, key_));
-    const double shine = shine_of(dot(normal, unit(add(key_, to_eye))));
+    const double shine = shine_of(dot(normal, half_way(to_eye)));
     const double highlight = 3 * kHighlight * shine;
     return add(scale(albedo, kSky + kEye + 0.7 * kKey * facing), {highlight, highlight, highlight});
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 namespace isoatlas {
 namespace {
@@ -34,27 +35,39 @@ Mat3 physical_to_voxel(const Geometry& geometry) {
 }
 
 BlockRanges ranges_of_regular(const Volume& volume, int threads) {
-    if (volume.info.geometry.coordinates[0].empty()) return block_ranges(volume, threads);
-    throw Error(ErrorKind::unsupported, {.file = volume.info.path,
-                                         .what = "volume rendering does not support rectilinear grids",
-                                         .next = "draw its surfaces, or resample it to even spacing"});
+    const auto refuse = [&](const char* what, const char* next) {
+        throw Error(ErrorKind::unsupported, {.file = volume.info.path, .what = what, .next = next});
+    };
+    if (!volume.info.geometry.coordinates[0].empty())
+        refuse("volume rendering does not support rectilinear grids", "draw its surfaces, or resample it to even spacing");
+    constexpr std::int64_t kMaxSide = std::int64_t{1} << 24;  // places of samples are in single precision (Trilinear)
+    if (std::ranges::max(volume.info.extent.size) > kMaxSide)
+        refuse("volume rendering does not support more than 2^24 samples along an axis", "take a part of it with --box");
+    return block_ranges(volume, threads);
 }
-
-/// A ray in segments that end at multiples of the step plus a shift; the first and the last one are shorter. A segment is evaluated
-/// entirely or not at all, so that empty-space skipping, or splitting a ray in empty space, does not change the result.
-struct Pieces {
-    double step, first;  ///< start of the first one, in steps
-    double begin, end;
-    [[nodiscard]] double end_of(std::int64_t piece) const {
-        return std::clamp((first + static_cast<double>(piece + 1)) * step, begin, end);
-    }
-    [[nodiscard]] std::int64_t number_at(double t) const { return static_cast<std::int64_t>(t / step - first); }
-};
 
 /// 1 - exp(-x) for x >= 0, to 1e-8.
 double swallowed(double x) {
     if (x > 0.125) return 1 - std::exp(-x);
-    return x * (1 - x / 2 * (1 - x / 3 * (1 - x / 4 * (1 - x / 5))));
+    return x * (1 - x * (1.0 / 2) * (1 - x * (1.0 / 3) * (1 - x * (1.0 / 4) * (1 - x * (1.0 / 5)))));
+}
+
+/// Adds segments of a ray, front to back: t and place (see Transfer) of the begin of the first one and of the end of each. shade(light,
+/// weight, t of its middle) turns the colour of one into its light. False: nothing behind them is seen.
+template <class ShadeSegment>
+bool absorb(std::span<const double> t, std::span<const float> place, const Transfer& transfer, const ShadeSegment& shade,
+            Gathered& gathered) {
+    for (std::size_t i = 0; i + 1 < t.size(); ++i) {
+        const OpticalProperties matter = transfer.mean(static_cast<double>(place[i]), static_cast<double>(place[i + 1]));
+        if (!(matter.extinction > 0)) continue;
+        const double weight = (1 - gathered.opacity) * swallowed(matter.extinction * (t[i + 1] - t[i]));
+        Vec3 light = scale(matter.glow, 1 / matter.extinction);
+        shade(light, weight, (t[i] + t[i + 1]) / 2);  // in place: a copy would wait for what has just been stored
+        gathered.light = along(gathered.light, weight, light);
+        gathered.opacity += weight;
+        if (gathered.opacity >= kEnough) return false;
+    }
+    return true;
 }
 
 }  // namespace
@@ -71,7 +84,7 @@ Medium::Medium(const Scene& scene, const Frame& frame, const Lights* lights, con
       blocks_(blocks, transfer_, threads),
       to_voxel_(physical_to_voxel(volume_->info.geometry)) {
     const Vec3& spacing = volume_->info.geometry.spacing;
-    step_ = std::min({spacing[0], spacing[1], spacing[2]}) / frame.radius;
+    step_ = scene.volume.sample_distance * std::min({spacing[0], spacing[1], spacing[2]}) / frame.radius;
     if (scene.volume.shadows && lights != nullptr) shadow_ = shadows(solid, threads);
 }
 
@@ -85,16 +98,19 @@ Vec3 Medium::voxel_of(const Vec3& point) const {
     return {dot(to_voxel_[0], physical), dot(to_voxel_[1], physical), dot(to_voxel_[2], physical)};
 }
 
-template <class T>
-Vec3 Medium::shaded(const Trilinear<T>& values, const Lights& lights, const Vec3& colour, const Vec3& voxel, const Vec3& to_eye) const {
-    const Vec3 fall = values.fall(voxel);
+void Medium::shade(const Vec3& fall, const Lights& lights, const Vec3& voxel, const Vec3& to_eye, const Vec3& half, Vec3& light) const {
     Vec3 normal{};  // the gradient is the transpose of to_voxel_ times the differences along the axes
-    for (int a = 0; a < 3; ++a) normal = along(normal, fall[a], to_voxel_[a]);
-    normal = unit(normal);
-    if (length(normal) == 0) return scale(colour, 0.6);
-    if (dot(normal, to_eye) < 0) normal = scale(normal, -1);
-    const Shade shade = lights.shade(colour, normal, to_eye);
-    return along(shade.ambient, shadow_.light(voxel), shade.key);
+    for (int c = 0; c < 3; ++c) normal[c] = fall[0] * to_voxel_[0][c] + fall[1] * to_voxel_[1][c] + fall[2] * to_voxel_[2][c];
+    const double size = length(normal), towards = dot(normal, to_eye);
+    if (size == 0) {
+        for (double& part : light) part *= 0.6;
+        return;
+    }
+    const double factor = (towards < 0 ? -1 : 1) / size;
+    for (double& part : normal) part *= factor;
+    const Lights::Parts parts = lights.parts(normal, std::abs(towards) / size, half);
+    const double lit = shadow_.light(voxel), diffuse = parts.ambient + lit * parts.key, highlight = lit * parts.highlight;
+    for (double& part : light) part = part * diffuse + highlight;
 }
 
 void Medium::march(const Ray& ray, double begin, double end, double shift, Gathered& gathered) const {
@@ -113,27 +129,36 @@ void Medium::go_through(const Ray& ray, double begin, double end, double shift, 
     const Gap inside = inside_box(origin, way, {0, 0, 0}, high);
     begin = std::max(begin, inside.begin), end = std::min(end, inside.end);
     if (!(begin < end)) return;
-    const Trilinear<T> values(*volume_);
-    const Pieces pieces{step_, std::floor(begin / step_ - shift) + shift, begin, end};
-    const auto place_at = [&](double t) { return transfer_.place(values.value(along(origin, t, way))); };
-    std::int64_t piece = -1;
-    double t = begin, place = place_at(t);  // end of the evaluated segments
+    const Trilinear<T> values(*volume_, transfer_.scale());
+    const RaySegments segments{origin, way, step_, std::floor(begin / step_ - shift) + shift, begin, end};
+    const Vec3 half = lights == nullptr ? Vec3{} : lights->half_way(to_eye);
+    const auto shade_segment = [&](Vec3& light, double weight, double middle) {
+        if (lights == nullptr || !(weight > kMin)) return;
+        const Vec3 voxel = along(origin, middle, way);
+        Vec3 fall;
+        values.fall(voxel, fall);
+        this->shade(fall, *lights, voxel, to_eye, half, light);
+    };
+    // Segments are evaluated kLanes at a time: t[0] and place[0] are those of the end of `segment`, the last one that is done.
+    std::int64_t segment = -1;
+    std::array<double, kLanes + 1> t;
+    std::array<float, kLanes + 1> place;
+    t[0] = begin;
+    bool has_place = false;
     blocks_.walk(origin, way, begin, end, 1e-7 * step_, [&](double from, double to) {
-        if (const std::int64_t next = pieces.number_at(from); next > piece + 1) {
-            piece = next - 1;
-            t = pieces.end_of(piece), place = place_at(t);
+        if (const std::int64_t next = segments.number_at(from); next > segment + 1) {
+            segment = next - 1;
+            t[0] = segments.end_of(segment), has_place = false;
         }
-        while (t < to) {
-            const double begin_place = place, begin_t = t;
-            t = pieces.end_of(++piece), place = place_at(t);
-            const OpticalProperties matter = transfer_.mean(begin_place, place);
-            if (!(matter.extinction > 0)) continue;
-            const double weight = (1 - gathered.opacity) * swallowed(matter.extinction * (t - begin_t));
-            Vec3 light = scale(matter.glow, 1 / matter.extinction);
-            if (weight > kMin && lights != nullptr) light = shaded(values, *lights, light, along(origin, (begin_t + t) / 2, way), to_eye);
-            gathered.light = along(gathered.light, weight, light);
-            gathered.opacity += weight;
-            if (gathered.opacity >= kEnough) return false;
+        while (t[0] < to) {
+            const std::size_t known = has_place ? 1 : 0;
+            values.places(segments, segment + static_cast<std::int64_t>(known), std::span<double, kLanes>(t.data() + known, kLanes),
+                          std::span<float, kLanes>(place.data() + known, kLanes));
+            std::size_t count = 1;
+            while (count + 1 < kLanes + known && t[count] < to) ++count;
+            if (!absorb(std::span(t).first(count + 1), place, transfer_, shade_segment, gathered)) return false;
+            segment += static_cast<std::int64_t>(count);
+            t[0] = t[count], place[0] = place[count], has_place = true;
         }
         return true;
     });

@@ -21,7 +21,7 @@ struct Gathered {
 class Medium {
 public:
     /// The scene must live as long as this. lights: null: the medium is unlit. solid: surfaces that cast shadows on the medium.
-    /// Throws Error{unsupported} for a rectilinear grid.
+    /// Throws Error{unsupported} for a rectilinear grid, and for more than 2^24 samples along an axis.
     Medium(const Scene& scene, const Frame& frame, const Lights* lights, const RaySurfaces& solid, int threads);
 
     /// Adds the medium between t = begin and end of a ray of the frame, `shift` in [0, 1): offset of the segments within a step.
@@ -36,9 +36,8 @@ private:
     void go(const Ray& ray, double begin, double end, double shift, const Lights* lights, Gathered& gathered) const;
     template <class T>
     void go_through(const Ray& ray, double begin, double end, double shift, const Lights* lights, Gathered& gathered) const;
-    template <class T>
-    [[nodiscard]] Vec3 shaded(const Trilinear<T>& values, const Lights& lights, const Vec3& colour, const Vec3& voxel,
-                              const Vec3& to_eye) const;
+    /// Turns the colour of matter with some differences of samples (Trilinear::fall) into its light. half: lights.half_way(to_eye).
+    void shade(const Vec3& fall, const Lights& lights, const Vec3& voxel, const Vec3& to_eye, const Vec3& half, Vec3& light) const;
     [[nodiscard]] ShadowGrid shadows(const RaySurfaces& solid, int threads) const;
 
     const Volume* volume_;

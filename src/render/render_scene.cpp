@@ -24,6 +24,8 @@ void check_options(const Scene& scene, const RenderOptions& options) {
     if (options.width < 1 || options.height < 1 || options.width > kMaxSide || options.height > kMaxSide)
         refuse("a picture of " + std::to_string(options.width) + " x " + std::to_string(options.height) + " pixels", "1 to 16384 each");
     if (options.samples < 1 || options.samples > 256) refuse("the number of samples per pixel is out of range", "1 to 256");
+    if (!(scene.volume.sample_distance >= 0.05 && scene.volume.sample_distance <= 16))
+        refuse("the distance between samples of a ray is out of range", "0.05 to 16 times the smallest spacing");
     for (const SceneObject& object : scene.objects) {
         if (!(object.opacity > 0 && object.opacity <= 1)) refuse("the opacity of an object is out of range", "above 0, at most 1");
         if (!object.surface.segments.empty()) refuse("a curve of a 2D volume is not a surface", "surfaces of 3D volumes");

@@ -26,6 +26,11 @@ public:
     [[nodiscard]] double place(double value) const {
         return std::clamp((value - low_) * places_per_value_, 0.0, static_cast<double>(kPlaces));
     }
+    /// What place() does to a value: it is less `zero`, times `factor`, at least 0 and at most `last`.
+    struct Scale {
+        double zero, factor, last;
+    };
+    [[nodiscard]] Scale scale() const { return {low_, places_per_value_, static_cast<double>(kPlaces)}; }
     /// Mean between two table positions, for a value that changes linearly between them (Engel, Kraus, Ertl, 2001, without attenuation
     /// within the segment). Exact to 1/4096 of the range.
     [[nodiscard]] OpticalProperties mean(double a, double b) const {

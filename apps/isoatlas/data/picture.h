@@ -86,6 +86,7 @@ struct PictureArguments {
     AnimationArguments animation;
     bool perspective = false, plain = false;
     bool volume = false, shadows = false, flat = false;
+    double sample_distance = 1;  ///< of volume rendering, in voxels
 };
 
 /// Throws Error{usage} that names the option and its valid values.

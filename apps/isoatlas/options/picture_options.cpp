@@ -34,6 +34,9 @@ void add_picture(CLI::App& app, Arguments& arguments, PictureWords& words) {
     add("--transfer", words.curves, "Volume rendering by an opacity curve: values, opacities of a voxel, colours; several add up",
         "VALUE:P:C,...");
     app.add_flag("--shadows", arguments.picture.shadows, "Shadows in the volume rendering (with --volume)");
+    add("--sample-distance", arguments.picture.sample_distance,
+        "Volume rendering: distance of the samples along a ray, in voxels (1): longer is faster, and misses what is thin", "D")
+        ->check(in_range(0.05, 16.0));
     add("--view", words.view, "auto, front, back, left, right, top, bottom, or angles AROUND,ABOVE in degrees", "FROM");
     add("--up", words.up, "Up direction of the picture: x, y, z, -x, -y, -z or X,Y,Z", "AXIS");
     add("--size", words.size, "Pixels: 768x768", "WxH");

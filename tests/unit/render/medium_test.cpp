@@ -77,6 +77,23 @@ TEST(Medium, LinearRamp) {
     expect_opacities(render_scene(scene, camera, flat(44, 1)), 44, integral, 0.012);
 }
 
+TEST(Medium, AnySampleDistanceGivesTheIntegralOfAConstant) {
+    Volume volume = make_volume({.rank = 3, .size = {12, 9, 7}}, ValueType::u8);
+    for (std::uint8_t& sample : volume.samples<std::uint8_t>()) sample = 100;
+    Scene scene;
+    scene.volume = {.volume = &volume, .tents = {{.low = 50, .high = 150, .colour = {1, 1, 1}, .density = 0.2, .ramp = 0}}};
+    const Camera camera{.target = {5.5, 4, 3}, .view = {.toward = {0, 0, 1}, .up = {0, 1, 0}}, .height = 4};
+    const int opacity = static_cast<int>(std::lround(255 * (1 - std::exp(-0.2 * 6))));  // six voxels deep
+    for (const double distance : {0.05, 0.3, 1.0, 1.7, 4.0, 16.0}) {
+        scene.volume.sample_distance = distance;
+        EXPECT_EQ(render_scene(scene, camera, flat(5, 1)).at(2, 2)[3], opacity) << distance;
+    }
+    for (const double distance : {0.0, 0.04, 17.0, std::nan("")}) {
+        scene.volume.sample_distance = distance;
+        EXPECT_THROW(static_cast<void>(render_scene(scene, camera, flat(5, 1))), Error) << distance;
+    }
+}
+
 TEST(Medium, ColourAndDepthOrderWithSurfaces) {
     const Volume volume = cone_volume(49);
     const double density = 0.02;

@@ -1,0 +1,22 @@
+// A ray in segments that end at multiples of a step plus a shift; the first and the last one are shorter. A segment is evaluated entirely
+// or not at all, so that empty-space skipping, or splitting a ray in empty space, does not change the result.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+
+#include "isoatlas/volume.h"
+
+namespace isoatlas {
+
+struct RaySegments {
+    Vec3 origin, way;    ///< of the ray, in samples
+    double step, first;  ///< begin of the first segment, in steps
+    double begin, end;   ///< t of the whole
+    [[nodiscard]] double end_of(std::int64_t segment) const {
+        return std::clamp((first + static_cast<double>(segment + 1)) * step, begin, end);
+    }
+    [[nodiscard]] std::int64_t number_at(double t) const { return static_cast<std::int64_t>(t / step - first); }
+};
+
+}  // namespace isoatlas

@@ -1,0 +1,169 @@
+#include "render/trilinear.h"
+
+#include <algorithm>
+#include <cstring>
+#include <type_traits>
+
+#include "base/target_clones.h"
+
+namespace isoatlas {
+namespace {
+
+// Vectors of gcc and clang: lowered to what the processor has.
+using Numbers = float __attribute__((vector_size(4 * kLanes)));
+using Integers = std::int32_t __attribute__((vector_size(4 * kLanes)));
+using Doubles = double __attribute__((vector_size(32)));
+using Halves = float __attribute__((vector_size(16)));
+using Bits = std::uint32_t __attribute__((vector_size(4 * kLanes)));
+
+/// What reads two samples that follow each other along x, at eight places, as numbers counted from `zero`.
+template <class T>
+struct Pairs {
+    std::int64_t step;
+    double zero;
+    [[gnu::always_inline]] void read(const std::array<const T*, kLanes>& from, std::int64_t offset, Numbers& low, Numbers& high) const {
+        alignas(32) EightNumbers lows, highs;
+        for (std::size_t k = 0; k < kLanes; ++k) {
+            const T *first = from[k] + offset, *second = first + step;
+            lows[k] = static_cast<float>(static_cast<double>(*first) - zero);
+            highs[k] = static_cast<float>(static_cast<double>(*second) - zero);
+        }
+        low = __builtin_bit_cast(Numbers, lows), high = __builtin_bit_cast(Numbers, highs);
+    }
+};
+
+/// The same of small integers: both are one word. There are two or more along x.
+template <class T>
+struct SmallPairs {
+    float zero;
+    [[gnu::always_inline]] void read(const std::array<const T*, kLanes>& from, std::int64_t offset, Numbers& low, Numbers& high) const {
+        const auto word = [&](std::size_t k) {
+            std::conditional_t<sizeof(T) == 1, std::uint16_t, std::uint32_t> both;
+            std::memcpy(&both, from[k] + offset, sizeof both);
+            return std::uint32_t{both};
+        };
+        const Bits both{word(0), word(1), word(2), word(3), word(4), word(5), word(6), word(7)};
+        constexpr int kSize = 8 * sizeof(T), kFill = 32 - kSize;
+        const Bits lows = both << kFill, highs = both << (kFill - kSize);
+        using Same = std::conditional_t<std::is_signed_v<T>, Integers, Bits>;  // the shift back keeps the sign
+        const auto number = [&](const Bits& high_bits, Numbers& found) __attribute__((always_inline)) {
+            found = __builtin_convertvector(__builtin_bit_cast(Integers, __builtin_bit_cast(Same, high_bits) >> kFill), Numbers) - zero;
+        };
+        number(lows, low), number(highs, high);
+    }
+};
+
+/// Between the corners of cells: first: corner 0. part: place in the cell, 0 to 1.
+template <class T, class Reader>
+[[gnu::always_inline]] inline void interpolate(const std::array<const T*, kLanes>& first, const std::array<std::int64_t, 3>& step,
+                                               const Reader& pairs, const std::array<Numbers, 3>& part, Numbers& found) {
+    std::array<Numbers, 4> rows;
+    for (std::size_t i = 0; i < 4; ++i) {
+        Numbers low, high;
+        pairs.read(first, (i & 1 ? step[1] : 0) + (i & 2 ? step[2] : 0), low, high);
+        rows[i] = low + part[0] * (high - low);
+    }
+    const Numbers front = rows[0] + part[1] * (rows[1] - rows[0]), back = rows[2] + part[1] * (rows[3] - rows[2]);
+    found = front + part[2] * (back - front);
+}
+
+/// The samples of a volume of T, as Trilinear has them.
+template <class T>
+struct Samples {
+    const T* first;
+    double zero;
+    std::array<float, 3> last;
+    std::array<std::int32_t, 3> last_cell;
+    std::array<std::int64_t, 3> stride, step;
+
+    void interpolated(const std::array<Numbers, 3>& places, Numbers& found) const;
+};
+
+template <class T>
+[[gnu::always_inline]] inline void Samples<T>::interpolated(const std::array<Numbers, 3>& places, Numbers& found) const {
+    std::array<Numbers, 3> part;
+    alignas(32) std::array<std::array<std::int32_t, kLanes>, 3> cells;
+    for (std::size_t a = 0; a < 3; ++a) {
+        const Numbers none{}, most = none + last[a], from_zero = places[a] > none ? places[a] : none,
+                              place = from_zero < most ? from_zero : most;
+        const Integers cell = __builtin_convertvector(place, Integers), most_cell = Integers{} + last_cell[a],
+                       inside = cell < most_cell ? cell : most_cell;
+        part[a] = place - __builtin_convertvector(inside, Numbers);
+        cells[a] = __builtin_bit_cast(std::array<std::int32_t, kLanes>, inside);
+    }
+    std::array<const T*, kLanes> corner;
+    for (std::size_t k = 0; k < kLanes; ++k) corner[k] = first + (cells[0][k] + stride[1] * cells[1][k] + stride[2] * cells[2][k]);
+    if constexpr (sizeof(T) <= 2) {
+        if (step[0] != 0) return interpolate(corner, step, SmallPairs<T>{static_cast<float>(zero)}, part, found);
+    }
+    interpolate(corner, step, Pairs<T>{step[0], zero}, part, found);
+}
+
+}  // namespace
+
+template <class T>
+Trilinear<T>::Trilinear(const Volume& volume, const Transfer::Scale& scale) : samples_(volume.samples<T>().data()), scale_(scale) {
+    const Extent& extent = volume.info.extent;
+    stride_ = {1, extent.size[0], extent.slice()};
+    for (std::size_t a = 0; a < 3; ++a) {
+        const std::int64_t size = extent.size[static_cast<int>(a)];
+        last_[a] = static_cast<float>(size - 1);
+        last_cell_[a] = static_cast<std::int32_t>(std::max<std::int64_t>(0, size - 2));
+        step_[a] = size > 1 ? stride_[a] : 0;
+    }
+}
+
+template <class T>
+ISOATLAS_TARGET_CLONES void Trilinear<T>::values(const EightPlaces& places, EightNumbers& found) const {
+    std::array<Numbers, 3> typed;
+    for (std::size_t a = 0; a < 3; ++a) typed[a] = __builtin_bit_cast(Numbers, places[a]);
+    Numbers numbers;
+    Samples<T>{samples_, scale_.zero, last_, last_cell_, stride_, step_}.interpolated(typed, numbers);
+    found = __builtin_bit_cast(EightNumbers, numbers);
+}
+
+template <class T>
+ISOATLAS_TARGET_CLONES void Trilinear<T>::places(const RaySegments& ray, std::int64_t segment, std::span<double, kLanes> t,
+                                                 std::span<float, kLanes> found) const {
+    alignas(32) EightPlaces at;
+    for (std::size_t half = 0; half < kLanes; half += 4) {
+        const Doubles numbers{1, 2, 3, 4}, begin = Doubles{} + ray.begin, end = Doubles{} + ray.end;
+        const Doubles typed = (numbers + static_cast<double>(segment + static_cast<std::int64_t>(half)) + ray.first) * ray.step,
+                      late = typed > begin ? typed : begin, ends = late < end ? late : end;
+        __builtin_memcpy(t.data() + half, &ends, sizeof ends);
+        for (std::size_t a = 0; a < 3; ++a) {
+            const Doubles along = ends * ray.way[static_cast<int>(a)] + ray.origin[static_cast<int>(a)];
+            const Halves numbers_along = __builtin_convertvector(along, Halves);
+            __builtin_memcpy(at[a].data() + half, &numbers_along, sizeof numbers_along);
+        }
+    }
+    std::array<Numbers, 3> typed;
+    for (std::size_t a = 0; a < 3; ++a) typed[a] = __builtin_bit_cast(Numbers, at[a]);
+    Numbers value;
+    Samples<T>{samples_, scale_.zero, last_, last_cell_, stride_, step_}.interpolated(typed, value);
+    const Numbers scaled = value * static_cast<float>(scale_.factor), none{}, last = none + static_cast<float>(scale_.last),
+                  from_zero = scaled > none ? scaled : none, place = from_zero < last ? from_zero : last;
+    __builtin_memcpy(found.data(), &place, sizeof place);
+}
+
+template <class T>
+ISOATLAS_TARGET_CLONES void Trilinear<T>::fall(const Vec3& place, Vec3& difference) const {
+    // In front of the place and behind it, along each axis, kept inside by interpolated(); two lanes are not needed.
+    constexpr std::array<Numbers, 3> kShift{{{-1, 1, 0, 0, 0, 0, 0, 0}, {0, 0, -1, 1, 0, 0, 0, 0}, {0, 0, 0, 0, -1, 1, 0, 0}}};
+    std::array<Numbers, 3> places;
+    for (std::size_t a = 0; a < 3; ++a) places[a] = kShift[a] + static_cast<float>(place[static_cast<int>(a)]);
+    Numbers found;
+    Samples<T>{samples_, scale_.zero, last_, last_cell_, stride_, step_}.interpolated(places, found);
+    for (int a = 0; a < 3; ++a) difference[a] = 0.5 * static_cast<double>(found[2 * a] - found[2 * a + 1]);
+}
+
+template class Trilinear<std::uint8_t>;
+template class Trilinear<std::int8_t>;
+template class Trilinear<std::uint16_t>;
+template class Trilinear<std::int16_t>;
+template class Trilinear<std::uint32_t>;
+template class Trilinear<std::int32_t>;
+template class Trilinear<float>;
+template class Trilinear<double>;
+
+}  // namespace isoatlas
