@@ -83,10 +83,19 @@ auto CellWriter<T>::state_of(std::int64_t p, std::int64_t y, std::int64_t z, int
 }
 
 template <class T>
-void CellWriter<T>::count_row(std::int64_t y, std::int64_t z, RowOffsets& place) const {
+auto CellWriter<T>::state_again(std::int64_t p, std::int64_t y, std::int64_t z, int pattern, std::uint8_t found) const -> State {
+    State state{pattern, found & (kHasTunnel - 1), 0, std::nullopt};
+    state.number = cell_cases().case_of(pattern, state.joined);
+    if ((found & kHasTunnel) != 0) state.tunnel = tunnels_({p - 1, y, z}, pattern, state.joined);
+    return state;
+}
+
+template <class T>
+void CellWriter<T>::count_row(std::int64_t y, std::int64_t z, RowOffsets& place, std::vector<std::uint8_t>& found) const {
     const bool tunnels = has_tunnels(y, z);
     const auto count_rest = [&](std::int64_t p, int pattern) {
         const State state = state_of(p, y, z, pattern, tunnels);
+        found.push_back(static_cast<std::uint8_t>(state.joined | (state.tunnel ? kHasTunnel : 0)));
         if (state.tunnel) {
             const TunnelCell cell = tunnel_cell(state.pattern, state.joined, *state.tunnel, style_);
             place.triangle += cell.triangles;
@@ -138,17 +147,16 @@ void CellWriter<T>::write_points(const State& state, const TunnelCell& cell, con
 }
 
 template <class T>
-void CellWriter<T>::write_row(std::int64_t y, std::int64_t z, const Layout& layout, Surface& surface) const {
+void CellWriter<T>::write_row(std::int64_t y, std::int64_t z, const Layout& layout, const std::uint8_t*& found, Surface& surface) const {
     const std::int64_t row = domain_.row_number(y, z);
     const RowOffsets& place = layout[row];
     if (layout[row + 1].triangle == place.triangle) return;
     std::int64_t articulation_point = place.first_articulation_point();
-    const bool tunnels = has_tunnels(y, z);
     const auto write_rest = [&](std::int64_t p, int pattern, const HitCounters& before, const HitCounters& after,
                                 std::array<std::int64_t, 3>*& triangle) {
         std::array<std::int64_t, 20> point;
         std::ranges::copy(points_of(before, after), point.begin());
-        write_cell(state_of(p, y, z, pattern, tunnels), {p - 1, y, z}, point.data(), articulation_point, triangle, surface);
+        write_cell(state_again(p, y, z, pattern, *found++), {p - 1, y, z}, point.data(), articulation_point, triangle, surface);
     };
     std::array<std::int64_t, 3>* const triangles = surface.triangles.data();
     CellRow<4> cells = cell_row(domain_.high, y, z);

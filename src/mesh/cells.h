@@ -2,6 +2,8 @@
 // In the literature: count, then write in place: Flying Edges (Schroeder, Maynard, Geveci 2015).
 #pragma once
 
+#include <vector>
+
 #include "critical/bodies.h"
 #include "mesh/cell_triangles.h"
 #include "mesh/layout.h"
@@ -28,10 +30,12 @@ public:
           flip_(flip),
           plain_(options.surface.style, tunnels_.finds_any(), flip) {}
 
-    /// Counts the hits of row (y, z), and the triangles and articulation points of its cells.
-    void count_row(std::int64_t y, std::int64_t z, RowOffsets& place) const;
+    /// Counts the hits of row (y, z), and the triangles and articulation points of its cells. Appends a number to `found` for each cell
+    /// that is not plain: what its samples say, which write_row() need not read again.
+    void count_row(std::int64_t y, std::int64_t z, RowOffsets& place, std::vector<std::uint8_t>& found) const;
     /// Writes triangles and articulation points (with normals and contours when the surface has them). All hits are already written.
-    void write_row(std::int64_t y, std::int64_t z, const Layout& layout, Surface& surface) const;
+    /// found: the number of the first cell of the row that is not plain; moved on, past the last one.
+    void write_row(std::int64_t y, std::int64_t z, const Layout& layout, const std::uint8_t*& found, Surface& surface) const;
 
 private:
     /// A cell at tau.
@@ -43,6 +47,10 @@ private:
     [[nodiscard]] bool has_tunnels(std::int64_t y, std::int64_t z) const;
     /// Cell p of row (y, z), which is not plain.
     [[nodiscard]] State state_of(std::int64_t p, std::int64_t y, std::int64_t z, int pattern, bool has_tunnels) const;
+    /// The state as a number: its joined faces, one bit each, and whether it has a tunnel.
+    static constexpr std::uint8_t kHasTunnel = 1 << 6;
+    /// The same from the number that count_row() has left: only a tunnel is computed once more.
+    [[nodiscard]] State state_again(std::int64_t p, std::int64_t y, std::int64_t z, int pattern, std::uint8_t found) const;
     /// Writes the triangles and points of a cell that is not plain. point: of its hits; next_point, triangle: places, moved on.
     void write_cell(const State& state, const Index3& voxel, std::int64_t* point, std::int64_t& next_point,
                     std::array<std::int64_t, 3>*& triangle, Surface& surface) const;

@@ -82,13 +82,14 @@ private:
             }
         });
     }
-    /// Calls visit(y, z) for the rows of the groups that are used.
+    /// Calls visit(y, z, found) for the rows of the groups that are used; found: the number of a group's next cell that is not plain.
     template <class Visit>
     void for_used_rows(const Phase& phase, const Visit& visit) {
         for_groups(phase, [&](std::int64_t group, std::int64_t z) {
             if (!groups_.is_used(group, z)) return;
             const auto [begin, end] = RowGroups::rows(domain_, group);
-            for (std::int64_t y = begin; y < end; ++y) visit(y, z);
+            const std::uint8_t* found = groups_.found(group, z).data();
+            for (std::int64_t y = begin; y < end; ++y) visit(y, z, found);
         });
     }
     [[nodiscard]] bool has_cells(std::int64_t y, std::int64_t z) const {
@@ -101,14 +102,15 @@ private:
         for_groups(kSurfacePhases["count"], [&](std::int64_t group, std::int64_t z) {
             const auto [begin, end] = RowGroups::rows(domain_, group);
             bool used = false;
-            for (std::int64_t y = begin; y < end; ++y) used |= count_row(y, z);
+            std::vector<std::uint8_t>& found = groups_.found(group, z);
+            for (std::int64_t y = begin; y < end; ++y) used |= count_row(y, z, found);
             if (used) groups_.use(group, z);
         });
         layout_.back() = {};
         exclusive_scan_counts(layout_);
     }
     /// PASS 1 of a row. Returns whether it has hits or triangles.
-    bool count_row(std::int64_t y, std::int64_t z) {
+    bool count_row(std::int64_t y, std::int64_t z, std::vector<std::uint8_t>& found) {
         RowOffsets& place = layout_[domain_.row_number(y, z)];
         place = {};
         if (domain_.high.candidates(y, z).empty()) return false;
@@ -116,7 +118,7 @@ private:
             count_hits(domain_, y, z, place);
             if (has_cells(y, z)) place.triangle = count_segments(domain_, y);
         } else {
-            cells_.count_row(y, z, place);
+            cells_.count_row(y, z, place, found);
         }
         return place.x_hits + place.y_hits + place.z_hits + place.triangle > 0;
     }
@@ -145,7 +147,7 @@ private:
         const HitWriter<T> hits(grid_, tau_, map_, domain_, surface);
         const Phase phase = kSurfacePhases["points"];
         for_each_slab_of(1, context_, phase, hits.bundles(), [&](const Slab& bundle) { hits.write(bundle.z_begin, layout_, groups_); });
-        for_used_rows(phase, [&](std::int64_t y, std::int64_t z) {
+        for_used_rows(phase, [&](std::int64_t y, std::int64_t z, const std::uint8_t*) {
             const RowOffsets& place = layout_[domain_.row_number(y, z)];
             if (place.x_hits + place.y_hits + place.z_hits == 0) return;
             if (y < 0 || z < 0) hits.write_outside(y, z, place);
@@ -155,12 +157,12 @@ private:
 
     /// PASS 4.
     void write_cells(Surface& surface) {
-        for_used_rows(kTrianglePhases["triangles"], [&](std::int64_t y, std::int64_t z) {
+        for_used_rows(kTrianglePhases["triangles"], [&](std::int64_t y, std::int64_t z, const std::uint8_t*& found) {
             if (!has_cells(y, z)) return;
             if (domain_.is_2d())
                 write_segments(grid_, tau_, domain_, y, layout_, flip_, surface);
             else
-                cells_.write_row(y, z, layout_, surface);
+                cells_.write_row(y, z, layout_, found, surface);
         });
     }
 

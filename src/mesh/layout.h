@@ -95,7 +95,7 @@ struct RowHits {
     [[nodiscard]] std::uint64_t z(std::int64_t w) const { return z_edges ? row[w] ^ next_z[w] : 0; }
 };
 
-/// Groups of adjacent rows, those of a brick, and which of them have hits or active cells.
+/// Groups of adjacent rows, those of a brick, which of them have hits or active cells, and what was found in their cells.
 class RowGroups {
 public:
     static constexpr std::int64_t kSide = kBrickSize[1];
@@ -104,7 +104,8 @@ public:
         : first_(group_of(domain.y_begin)),
           count_(group_of(domain.y_end) - first_ + 1),
           z_begin_(domain.z_begin),
-          used_(static_cast<std::size_t>(count_ * domain.rows_z())) {}
+          used_(static_cast<std::size_t>(count_ * domain.rows_z())),
+          found_(used_.size()) {}
     /// Of y from -1 on: row -1 is a group of its own.
     [[nodiscard]] static std::int64_t group_of(std::int64_t y) { return (y + kSide) / kSide; }
     [[nodiscard]] std::int64_t begin() const { return first_; }
@@ -116,6 +117,8 @@ public:
     /// Groups of different slices may be used by several threads.
     void use(std::int64_t group, std::int64_t z) { used_[place(group, z)] = 1; }
     [[nodiscard]] bool is_used(std::int64_t group, std::int64_t z) const { return used_[place(group, z)] != 0; }
+    /// The numbers of the cells that are not plain (CellWriter::count_row), row by row.
+    [[nodiscard]] std::vector<std::uint8_t>& found(std::int64_t group, std::int64_t z) { return found_[place(group, z)]; }
 
 private:
     [[nodiscard]] std::size_t place(std::int64_t group, std::int64_t z) const {
@@ -123,6 +126,7 @@ private:
     }
     std::int64_t first_, count_, z_begin_;
     std::vector<std::uint8_t> used_;
+    std::vector<std::vector<std::uint8_t>> found_;
 };
 
 /// Offsets of all rows; the last entry holds the totals.
