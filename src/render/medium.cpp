@@ -42,7 +42,7 @@ BlockRanges ranges_of_regular(const Volume& volume, int threads) {
         refuse("volume rendering does not support rectilinear grids", "draw its surfaces, or resample it to even spacing");
     constexpr std::int64_t kMaxSide = std::int64_t{1} << 24;  // places of samples are in single precision (Trilinear)
     if (std::ranges::max(volume.info.extent.size) > kMaxSide)
-        refuse("volume rendering does not support more than 2^24 samples along an axis", "take a part of it with --box");
+        refuse("volume rendering does not support more than 2^24 samples along an axis", "draw a part of it");
     return block_ranges(volume, threads);
 }
 
