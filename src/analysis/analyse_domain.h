@@ -40,11 +40,13 @@ template <Domain D>
 void analyse_domain(D& domain, bool zones, AnalysisArrays<typename D::Number>& arrays, const Context& context) {
     Criticals<typename D::Number> criticals = domain.critical(zones, context);
     report(context, kAnalysisPhases["trees"], 0);
-    make_trees(std::move(criticals.set), arrays, context);
-    if (!zones) return;
-    report(context, kAnalysisPhases["zones"], 0);
-    make_zones(domain, std::move(criticals.basin), arrays, context);
-    report(context, kAnalysisPhases["zones"], 1);
+    const ElementMeasures<typename D::Number> elements = make_trees(std::move(criticals.set), arrays, context);
+    if (zones) {
+        report(context, kAnalysisPhases["zones"], 0);
+        make_zones(domain, std::move(criticals.basin), arrays, context);
+    }
+    make_measures(elements, arrays, context.threads);
+    if (zones) report(context, kAnalysisPhases["zones"], 1);
 }
 
 }  // namespace isoatlas

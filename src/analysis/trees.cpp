@@ -17,9 +17,9 @@
 namespace isoatlas {
 namespace {
 
-/// Levels, events and their measures. join: parents of the join tree.
+/// Levels and events. join: parents of the join tree.
 template <class Number>
-void make_events(MergeTreeView<Number> join, AnalysisArrays<Number>& arrays, int rank, const Context& context) {
+ElementMeasures<Number> make_events(MergeTreeView<Number> join, AnalysisArrays<Number>& arrays, int rank, const Context& context) {
     stop_if_cancelled(context);
     ByElement<Number, std::int8_t> delta = rank == 3 ? delta_chis(arrays.code, 3) : ByElement<Number, std::int8_t>();
     ByElement<Number, ElementIdOf<Number>> group;
@@ -27,13 +27,13 @@ void make_events(MergeTreeView<Number> join, AnalysisArrays<Number>& arrays, int
         context.threads, [&] { arrays.level = level_roots<Number>(arrays.contours, arrays.value); },
         [&] { group = join_groups<Number>(join, arrays.value); });
     ISOATLAS_DCHECK(every_level_has_one_value<Number>(arrays.contours, arrays.level, arrays.value));
-    const ByElement<Number, LevelKind> kind = level_kinds<Number>(arrays.contours, arrays.level, arrays.value, delta);
+    ByElement<Number, LevelKind> kind = level_kinds<Number>(arrays.contours, arrays.level, arrays.value, delta);
     stop_if_cancelled(context);
     arrays.tree = criticality_tree<Number>(std::move(group), join, arrays.level, kind);
     ISOATLAS_DCHECK(every_event_has_its_zone<Number>(arrays.tree, arrays.value));
     stop_if_cancelled(context);
     if (rank != 3) delta = delta_chis(arrays.code, rank);
-    arrays.measures = measure_events<Number>(arrays.tree, arrays.contours, arrays.level, kind, delta, context.threads);
+    return {std::move(delta), std::move(kind)};
 }
 
 /// Of the High set when all elements are in it.
@@ -74,10 +74,15 @@ MergeTree<Number> make_arcs(CriticalSet<Number> set, AnalysisArrays<Number>& arr
 }
 
 template <class Number>
-void make_trees(CriticalSet<Number> set, AnalysisArrays<Number>& arrays, const Context& context) {
+ElementMeasures<Number> make_trees(CriticalSet<Number> set, AnalysisArrays<Number>& arrays, const Context& context) {
     const int rank = set.rank;
     const MergeTree<Number> join = make_arcs(std::move(set), arrays, context.threads);
-    make_events<Number>(join, arrays, rank, context);
+    return make_events<Number>(join, arrays, rank, context);
+}
+
+template <class Number>
+void make_measures(const ElementMeasures<Number>& elements, AnalysisArrays<Number>& arrays, int threads) {
+    arrays.measures = measure_events<Number>(arrays.tree, arrays.contours, arrays.level, elements.kind, elements.delta_chi, threads);
 }
 
 template <class Number>
@@ -90,7 +95,7 @@ bool restore_trees(AnalysisArrays<Number>& arrays, int rank, const Context& cont
     if (!is_3d) std::ranges::fill(arrays.contours.half_chi.items(), 1);
     stop_if_cancelled(context);
     const MergeTree<Number> join = join_tree_of(arrays.contours);
-    make_events<Number>(join, arrays, rank, context);
+    make_measures(make_events<Number>(join, arrays, rank, context), arrays, context.threads);
     return true;
 }
 
@@ -100,11 +105,12 @@ void add_up_voxels(ByElementView<Number, Number> element_voxels, AnalysisArrays<
     for (const auto i : element_voxels.ids()) arrays.voxels[arrays.tree.event_of_element[i]] += element_voxels[i];
 }
 
-#define ISOATLAS_TREES(Number)                                                                        \
-    template ByElement<Number, std::int8_t> delta_chis(const ByElement<Number, std::uint64_t>&, int); \
-    template MergeTree<Number> make_arcs(CriticalSet<Number>, AnalysisArrays<Number>&, int);          \
-    template void make_trees(CriticalSet<Number>, AnalysisArrays<Number>&, const Context&);           \
-    template bool restore_trees(AnalysisArrays<Number>&, int, const Context&);                        \
+#define ISOATLAS_TREES(Number)                                                                                 \
+    template ByElement<Number, std::int8_t> delta_chis(const ByElement<Number, std::uint64_t>&, int);          \
+    template MergeTree<Number> make_arcs(CriticalSet<Number>, AnalysisArrays<Number>&, int);                   \
+    template ElementMeasures<Number> make_trees(CriticalSet<Number>, AnalysisArrays<Number>&, const Context&); \
+    template void make_measures(const ElementMeasures<Number>&, AnalysisArrays<Number>&, int);                 \
+    template bool restore_trees(AnalysisArrays<Number>&, int, const Context&);                                 \
     template void add_up_voxels(ByElementView<Number, Number>, AnalysisArrays<Number>&);
 ISOATLAS_TREES(std::uint32_t)
 ISOATLAS_TREES(std::uint64_t)

@@ -78,6 +78,9 @@ template <class Number, class Value>
 auto HeavyPathDecomposition<Number, Value>::lay_out(const DescendingTree<Number>& tree, IdSpan<Event, HeavyNode<Number>> nodes)
     -> BigVector<Path> {
     BigVector<Path> paths;
+    std::size_t leaves = 0;
+    for (const Event e : streamed<Event>(tree.size(), in_order(8))) leaves += nodes[e].heavy == e;
+    paths.reserve(leaves);  // each path has one
     Number end = 0;
     for (const Event e : streamed_down<Event>(tree.size(), at_random(3))) {
         if (e.index() >= kEventsAhead) __builtin_prefetch(nodes.items().data() + tree.parent[Event(e.index() - kEventsAhead)].index());
