@@ -7,10 +7,13 @@
 
 namespace isoatlas {
 
-/// Is ISOATLAS_SIMD=scalar set in the environment? Then the scalar code path runs on every processor, so that tests reach it.
-inline bool simd_is_scalar() {
-    const char* simd = std::getenv("ISOATLAS_SIMD");
-    return simd != nullptr && std::string_view(simd) == "scalar";
+/// The widest vectors that functions written for some use: ISOATLAS_SIMD=scalar or avx2 in the environment sets it, so that tests reach
+/// every code path that the processor has.
+enum class SimdLevel : unsigned char { scalar, avx2, widest };
+inline SimdLevel simd_level() {
+    const char* typed = std::getenv("ISOATLAS_SIMD");
+    const std::string_view level = typed == nullptr ? "" : typed;
+    return level == "scalar" ? SimdLevel::scalar : level == "avx2" ? SimdLevel::avx2 : SimdLevel::widest;
 }
 
 }  // namespace isoatlas
@@ -32,7 +35,7 @@ inline bool simd_is_scalar() {
 namespace isoatlas {
 
 /// Can this processor run them? No, where ISOATLAS_SIMD=scalar.
-inline const bool kHasFused = !simd_is_scalar() && __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
+inline const bool kHasFused = simd_level() >= SimdLevel::avx2 && __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
 
 }  // namespace isoatlas
 
@@ -55,11 +58,12 @@ inline constexpr bool kHasFused = false;
 
 namespace isoatlas {
 
-/// Can this processor run them? No, where ISOATLAS_SIMD=scalar.
-inline const bool kHasAvx512 =
-    !simd_is_scalar() && __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512bw") && __builtin_cpu_supports("avx512dq") &&
-    __builtin_cpu_supports("avx512vl") && __builtin_cpu_supports("avx512vbmi") && __builtin_cpu_supports("avx512vbmi2") &&
-    __builtin_cpu_supports("bmi") && __builtin_cpu_supports("bmi2") && __builtin_cpu_supports("lzcnt") && __builtin_cpu_supports("popcnt");
+/// Can this processor run them? No, where ISOATLAS_SIMD is scalar or avx2.
+inline const bool kHasAvx512 = simd_level() == SimdLevel::widest && __builtin_cpu_supports("avx512f") &&
+                               __builtin_cpu_supports("avx512bw") && __builtin_cpu_supports("avx512dq") &&
+                               __builtin_cpu_supports("avx512vl") && __builtin_cpu_supports("avx512vbmi") &&
+                               __builtin_cpu_supports("avx512vbmi2") && __builtin_cpu_supports("bmi") && __builtin_cpu_supports("bmi2") &&
+                               __builtin_cpu_supports("lzcnt") && __builtin_cpu_supports("popcnt");
 
 }  // namespace isoatlas
 
