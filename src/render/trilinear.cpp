@@ -22,7 +22,7 @@ struct Pairs {
     std::int64_t step;
     double zero;
     [[gnu::always_inline]] void read(const std::array<const T*, kLanes>& from, std::int64_t offset, Numbers& low, Numbers& high) const {
-        alignas(32) EightNumbers lows, highs;
+        alignas(32) std::array<float, kLanes> lows, highs;
         for (std::size_t k = 0; k < kLanes; ++k) {
             const T *first = from[k] + offset, *second = first + step;
             lows[k] = static_cast<float>(static_cast<double>(*first) - zero);
@@ -67,65 +67,48 @@ template <class T, class Reader>
     found = front + part[2] * (back - front);
 }
 
-/// The samples of a volume of T, as Trilinear has them.
+/// The interpolant at eight places, less `zero`. Places outside are moved to the border.
 template <class T>
-struct Samples {
-    const T* first;
-    double zero;
-    std::array<float, 3> last;
-    std::array<std::int32_t, 3> last_cell;
-    std::array<std::int64_t, 3> stride, step;
-
-    void interpolated(const std::array<Numbers, 3>& places, Numbers& found) const;
-};
-
-template <class T>
-[[gnu::always_inline]] inline void Samples<T>::interpolated(const std::array<Numbers, 3>& places, Numbers& found) const {
+[[gnu::always_inline]] inline void interpolate(const PlacedSamples<T>& samples, double zero, const std::array<Numbers, 3>& places,
+                                               Numbers& found) {
     std::array<Numbers, 3> part;
     alignas(32) std::array<std::array<std::int32_t, kLanes>, 3> cells;
     for (std::size_t a = 0; a < 3; ++a) {
-        const Numbers none{}, most = none + last[a], from_zero = places[a] > none ? places[a] : none,
+        const Numbers none{}, most = none + samples.last[a], from_zero = places[a] > none ? places[a] : none,
                               place = from_zero < most ? from_zero : most;
-        const Integers cell = __builtin_convertvector(place, Integers), most_cell = Integers{} + last_cell[a],
+        const Integers cell = __builtin_convertvector(place, Integers), most_cell = Integers{} + samples.last_cell[a],
                        inside = cell < most_cell ? cell : most_cell;
         part[a] = place - __builtin_convertvector(inside, Numbers);
         cells[a] = __builtin_bit_cast(std::array<std::int32_t, kLanes>, inside);
     }
     std::array<const T*, kLanes> corner;
-    for (std::size_t k = 0; k < kLanes; ++k) corner[k] = first + (cells[0][k] + stride[1] * cells[1][k] + stride[2] * cells[2][k]);
+    for (std::size_t k = 0; k < kLanes; ++k)
+        corner[k] = samples.first + (cells[0][k] + samples.stride[1] * cells[1][k] + samples.stride[2] * cells[2][k]);
     if constexpr (sizeof(T) <= 2) {
-        if (step[0] != 0) return interpolate(corner, step, SmallPairs<T>{static_cast<float>(zero)}, part, found);
+        if (samples.step[0] != 0) return interpolate(corner, samples.step, SmallPairs<T>{static_cast<float>(zero)}, part, found);
     }
-    interpolate(corner, step, Pairs<T>{step[0], zero}, part, found);
+    interpolate(corner, samples.step, Pairs<T>{samples.step[0], zero}, part, found);
 }
 
 }  // namespace
 
 template <class T>
-Trilinear<T>::Trilinear(const Volume& volume, const Transfer::Scale& scale) : samples_(volume.samples<T>().data()), scale_(scale) {
+Trilinear<T>::Trilinear(const Volume& volume, const Transfer::Scale& scale)
+    : samples_{volume.samples<T>().data(), {}, {}, {}, {}}, scale_(scale) {
     const Extent& extent = volume.info.extent;
-    stride_ = {1, extent.size[0], extent.slice()};
+    samples_.stride = {1, extent.size[0], extent.slice()};
     for (std::size_t a = 0; a < 3; ++a) {
         const std::int64_t size = extent.size[static_cast<int>(a)];
-        last_[a] = static_cast<float>(size - 1);
-        last_cell_[a] = static_cast<std::int32_t>(std::max<std::int64_t>(0, size - 2));
-        step_[a] = size > 1 ? stride_[a] : 0;
+        samples_.last[a] = static_cast<float>(size - 1);
+        samples_.last_cell[a] = static_cast<std::int32_t>(std::max<std::int64_t>(0, size - 2));
+        samples_.step[a] = size > 1 ? samples_.stride[a] : 0;
     }
-}
-
-template <class T>
-ISOATLAS_TARGET_CLONES void Trilinear<T>::values(const EightPlaces& places, EightNumbers& found) const {
-    std::array<Numbers, 3> typed;
-    for (std::size_t a = 0; a < 3; ++a) typed[a] = __builtin_bit_cast(Numbers, places[a]);
-    Numbers numbers;
-    Samples<T>{samples_, scale_.zero, last_, last_cell_, stride_, step_}.interpolated(typed, numbers);
-    found = __builtin_bit_cast(EightNumbers, numbers);
 }
 
 template <class T>
 ISOATLAS_TARGET_CLONES void Trilinear<T>::places(const RaySegments& ray, std::int64_t segment, std::span<double, kLanes> t,
                                                  std::span<float, kLanes> found) const {
-    alignas(32) EightPlaces at;
+    alignas(32) std::array<std::array<float, kLanes>, 3> at;
     for (std::size_t half = 0; half < kLanes; half += 4) {
         const Doubles numbers{1, 2, 3, 4}, begin = Doubles{} + ray.begin, end = Doubles{} + ray.end;
         const Doubles typed = (numbers + static_cast<double>(segment + static_cast<std::int64_t>(half)) + ray.first) * ray.step,
@@ -140,7 +123,7 @@ ISOATLAS_TARGET_CLONES void Trilinear<T>::places(const RaySegments& ray, std::in
     std::array<Numbers, 3> typed;
     for (std::size_t a = 0; a < 3; ++a) typed[a] = __builtin_bit_cast(Numbers, at[a]);
     Numbers value;
-    Samples<T>{samples_, scale_.zero, last_, last_cell_, stride_, step_}.interpolated(typed, value);
+    interpolate(samples_, scale_.zero, typed, value);
     const Numbers scaled = value * static_cast<float>(scale_.factor), none{}, last = none + static_cast<float>(scale_.last),
                   from_zero = scaled > none ? scaled : none, place = from_zero < last ? from_zero : last;
     __builtin_memcpy(found.data(), &place, sizeof place);
@@ -148,12 +131,12 @@ ISOATLAS_TARGET_CLONES void Trilinear<T>::places(const RaySegments& ray, std::in
 
 template <class T>
 ISOATLAS_TARGET_CLONES void Trilinear<T>::fall(const Vec3& place, Vec3& difference) const {
-    // In front of the place and behind it, along each axis, kept inside by interpolated(); two lanes are not needed.
+    // In front of the place and behind it, along each axis, kept inside by interpolate(); two lanes are not needed.
     constexpr std::array<Numbers, 3> kShift{{{-1, 1, 0, 0, 0, 0, 0, 0}, {0, 0, -1, 1, 0, 0, 0, 0}, {0, 0, 0, 0, -1, 1, 0, 0}}};
     std::array<Numbers, 3> places;
     for (std::size_t a = 0; a < 3; ++a) places[a] = kShift[a] + static_cast<float>(place[static_cast<int>(a)]);
     Numbers found;
-    Samples<T>{samples_, scale_.zero, last_, last_cell_, stride_, step_}.interpolated(places, found);
+    interpolate(samples_, scale_.zero, places, found);
     for (int a = 0; a < 3; ++a) difference[a] = 0.5 * static_cast<double>(found[2 * a] - found[2 * a + 1]);
 }
 
