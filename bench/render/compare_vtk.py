@@ -198,7 +198,7 @@ def longest_step(draw, most):
 def compare(program, path, arguments):
     size, threads, cache = arguments.size, arguments.threads, arguments.cache
     raw, picture = cache / "render.raw", cache / "render.rgba"
-    drawn = ours(program, path, "--flat", "--size", size, "--samples", 1, "--raw", raw, "--picture", picture, "--repeats", 1)
+    drawn = ours(program, path, "--flat", "--size", size, "--samples", 1, "--raw", raw, "--repeats", 1)
     scene = Vtk(drawn, raw, size, threads)
     scene.draw(shaded=False)
     exact = integral(drawn, scene.samples.reshape(drawn["size"][::-1]), size)
