@@ -77,7 +77,6 @@ Contents contents_of(const VolumeView& volume, const AnalysisOptions& options, F
     add_samples(fingerprint, samples.value_or(analysed), analysed);
     contents.fingerprint = std::move(fingerprint);
     contents.polarities = polarities;
-    if (polarities != PolarityChoice::high) contents.version = kPolarityVersion;
     return contents;
 }
 

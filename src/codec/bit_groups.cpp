@@ -4,7 +4,6 @@
 #include <array>
 #include <bit>
 #include <cstring>
-#include <numeric>
 
 #include "base/target_clones.h"
 
@@ -12,6 +11,7 @@ namespace isoatlas {
 namespace {
 
 constexpr int kWidest = 64;
+constexpr std::size_t kTogether = 128;  ///< groups that are read together: those of a brick
 
 /// Widths of groups are stored in `more` bits, minus `min`.
 struct Widths {
@@ -133,14 +133,49 @@ ISOATLAS_AVX512 void read_groups_wide(const std::byte* from, std::span<const std
 #endif
 
 #if ISOATLAS_HAS_AVX512  // of that family of processors
+[[gnu::always_inline]] ISOATLAS_FUSED inline __m256i swapped_avx2(__m256i bits, long long mask, int places) {
+    const __m256i change = _mm256_and_si256(_mm256_xor_si256(bits, _mm256_srli_epi64(bits, places)), _mm256_set1_epi64x(mask));
+    return _mm256_xor_si256(_mm256_xor_si256(bits, change), _mm256_slli_epi64(change, places));
+}
+
+/// transposed() of four.
+[[gnu::always_inline]] ISOATLAS_FUSED inline __m256i transposed_avx2(__m256i bits) {
+    bits = swapped_avx2(bits, 0x00aa00aa00aa00aa, 7);
+    bits = swapped_avx2(bits, 0x0000cccc0000cccc, 14);
+    return swapped_avx2(bits, 0x00000000f0f0f0f0, 28);
+}
+
+[[gnu::always_inline]] ISOATLAS_FUSED inline __m256i load_avx2(const void* from) {
+    return _mm256_loadu_si256(static_cast<const __m256i*>(from));
+}
+
+/// last_bytes() of all groups, four at a time: widths and last end at a multiple of four.
+ISOATLAS_FUSED void last_bytes_avx2(const std::byte* from, std::span<const std::uint8_t> widths, std::uint64_t* last) {
+    const __m256i one = _mm256_set1_epi64x(1);
+    for (std::size_t i = 0; i < widths.size(); i += 4, last += 4) {
+        std::array<std::uint64_t, 4> words;
+        for (std::size_t k = 0; k < 4; ++k) {
+            words[k] = word_at(from + widths[i + k] / 8 * 8);
+            from += widths[i + k];
+        }
+        std::uint32_t four;
+        std::memcpy(&four, widths.data() + i, 4);
+        const __m256i bits = _mm256_and_si256(_mm256_cvtepu8_epi64(_mm_cvtsi32_si128(static_cast<int>(four))), _mm256_set1_epi64x(7));
+        const __m256i kept = _mm256_sub_epi64(_mm256_sllv_epi64(one, _mm256_slli_epi64(bits, 3)), one);
+        const __m256i all = _mm256_and_si256(load_avx2(words.data()), kept);
+        _mm256_storeu_si256(reinterpret_cast<__m256i*>(last), transposed_avx2(all));
+    }
+}
+
 /// Words 0 .. whole - 1 of a group as they are, its bits as word `whole`, then nothing.
 template <class N>
 struct WordMasks {
-    alignas(32) std::array<std::array<std::uint64_t, 4>, sizeof(N) + 1> kept{}, bits{};
+    static constexpr std::size_t kWords = sizeof(N) <= 4 ? 4 : 8;
+    alignas(32) std::array<std::array<std::uint64_t, kWords>, sizeof(N) + 1> kept{}, bits{};
 
     constexpr WordMasks() {
         for (std::size_t whole = 0; whole <= sizeof(N); ++whole) {
-            for (std::size_t k = 0; k < 4; ++k)
+            for (std::size_t k = 0; k < kWords; ++k)
                 kept[whole][k] = k < whole ? ~std::uint64_t{0} : 0, bits[whole][k] = k == whole ? ~std::uint64_t{0} : 0;
         }
     }
@@ -148,52 +183,70 @@ struct WordMasks {
 template <class N>
 constexpr WordMasks<N> kWordMasks;
 
-/// 32 bits: the words are four by eight bytes, the numbers eight by four.
+/// Words 4 * half .. 4 * half + 3 of a group.
 template <class N>
-    requires(sizeof(N) == 4)
-ISOATLAS_FUSED void read_groups_avx2(const std::byte* from, std::span<const std::uint8_t> widths, N* numbers) {
+[[gnu::always_inline]] ISOATLAS_FUSED inline __m256i four_words(const std::byte* from, std::size_t whole, std::uint64_t last,
+                                                                std::size_t half) {
+    const __m256i kept = _mm256_and_si256(load_avx2(from + 32 * half), load_avx2(kWordMasks<N>.kept[whole].data() + 4 * half));
+    const __m256i bits = load_avx2(kWordMasks<N>.bits[whole].data() + 4 * half);
+    return _mm256_or_si256(kept, _mm256_and_si256(_mm256_set1_epi64x(static_cast<long long>(last)), bits));
+}
+
+/// Four words by eight bytes as eight numbers by four bytes.
+[[gnu::always_inline]] ISOATLAS_FUSED inline __m256i eight_numbers(__m256i words) {
     const __m256i halves = _mm256_setr_epi32(0, 2, 4, 6, 1, 3, 5, 7);  // of the words: numbers 0 to 3, 4 to 7
     const __m256i bytes =
         _mm256_setr_epi8(0, 4, 8, 12, 1, 5, 9, 13, 2, 6, 10, 14, 3, 7, 11, 15, 0, 4, 8, 12, 1, 5, 9, 13, 2, 6, 10, 14, 3, 7, 11, 15);
-    for (const int width : widths) {
-        const auto whole = static_cast<std::size_t>(width / 8);
-        const std::uint64_t bits = last_bytes(from, width);
-        const auto* kept = reinterpret_cast<const __m256i*>(kWordMasks<N>.kept[whole].data());
-        const auto* last = reinterpret_cast<const __m256i*>(kWordMasks<N>.bits[whole].data());
-        __m256i words = _mm256_and_si256(_mm256_loadu_si256(reinterpret_cast<const __m256i*>(from)), _mm256_load_si256(kept));
-        words = _mm256_or_si256(words, _mm256_and_si256(_mm256_set1_epi64x(static_cast<long long>(bits)), _mm256_load_si256(last)));
-        words = _mm256_shuffle_epi8(_mm256_permutevar8x32_epi32(words, halves), bytes);
-        _mm256_storeu_si256(reinterpret_cast<__m256i*>(numbers), words);
-        from += width, numbers += kGroup;
-    }
+    return _mm256_shuffle_epi8(_mm256_permutevar8x32_epi32(words, halves), bytes);
 }
 
-/// 16 bits: two by eight bytes.
-template <class N>
-    requires(sizeof(N) == 2)
-ISOATLAS_FUSED void read_groups_avx2(const std::byte* from, std::span<const std::uint8_t> widths, N* numbers) {
+[[gnu::always_inline]] ISOATLAS_FUSED inline void read_group_avx2(const std::byte* from, int width, std::uint64_t last,
+                                                                  std::uint8_t* group) {
+    const std::uint64_t word = width == 8 ? word_at(from) : last;
+    std::memcpy(group, &word, 8);
+}
+
+[[gnu::always_inline]] ISOATLAS_FUSED inline void read_group_avx2(const std::byte* from, int width, std::uint64_t last,
+                                                                  std::uint16_t* group) {
     const __m128i bytes = _mm_setr_epi8(0, 8, 1, 9, 2, 10, 3, 11, 4, 12, 5, 13, 6, 14, 7, 15);
-    for (const int width : widths) {
-        const auto whole = static_cast<std::size_t>(width / 8);
-        const std::uint64_t bits = last_bytes(from, width);
-        const auto* kept = reinterpret_cast<const __m128i*>(kWordMasks<N>.kept[whole].data());
-        const auto* last = reinterpret_cast<const __m128i*>(kWordMasks<N>.bits[whole].data());
-        __m128i words = _mm_and_si128(_mm_loadu_si128(reinterpret_cast<const __m128i*>(from)), _mm_load_si128(kept));
-        words = _mm_or_si128(words, _mm_and_si128(_mm_set1_epi64x(static_cast<long long>(bits)), _mm_load_si128(last)));
-        _mm_storeu_si128(reinterpret_cast<__m128i*>(numbers), _mm_shuffle_epi8(words, bytes));
-        from += width, numbers += kGroup;
+    const __m128i words = _mm256_castsi256_si128(four_words<std::uint16_t>(from, static_cast<std::size_t>(width / 8), last, 0));
+    _mm_storeu_si128(reinterpret_cast<__m128i*>(group), _mm_shuffle_epi8(words, bytes));
+}
+
+[[gnu::always_inline]] ISOATLAS_FUSED inline void read_group_avx2(const std::byte* from, int width, std::uint64_t last,
+                                                                  std::uint32_t* group) {
+    const __m256i words = four_words<std::uint32_t>(from, static_cast<std::size_t>(width / 8), last, 0);
+    _mm256_storeu_si256(reinterpret_cast<__m256i*>(group), eight_numbers(words));
+}
+
+[[gnu::always_inline]] ISOATLAS_FUSED inline void read_group_avx2(const std::byte* from, int width, std::uint64_t last,
+                                                                  std::uint64_t* group) {
+    const auto whole = static_cast<std::size_t>(width / 8);
+    const __m256i low = eight_numbers(four_words<std::uint64_t>(from, whole, last, 0));
+    const __m256i high = eight_numbers(four_words<std::uint64_t>(from, whole, last, 1));
+    const __m256i even = _mm256_unpacklo_epi32(low, high), odd = _mm256_unpackhi_epi32(low, high);  // 0 1 4 5, 2 3 6 7
+    _mm256_storeu_si256(reinterpret_cast<__m256i*>(group), _mm256_permute2x128_si256(even, odd, 0x20));
+    _mm256_storeu_si256(reinterpret_cast<__m256i*>(group + 4), _mm256_permute2x128_si256(even, odd, 0x31));
+}
+
+template <class N>
+ISOATLAS_FUSED void read_groups_avx2(const std::byte* from, std::span<const std::uint8_t> widths, N* numbers) {
+    std::array<std::uint64_t, kTogether> last;
+    last_bytes_avx2(from, {widths.data(), (widths.size() + 3) / 4 * 4}, last.data());
+    for (std::size_t i = 0; i < widths.size(); ++i, numbers += kGroup) {
+        read_group_avx2(from, widths[i], last[i], numbers);
+        from += widths[i];
     }
 }
 #endif
 
-/// Consecutive groups; kLookedAt bytes are readable from the start of the last one.
+/// Consecutive groups, at most kTogether; kLookedAt bytes are readable from the start of the last one, and zeros follow the widths up to a
+/// multiple of 4.
 template <class N>
 void read_groups(const std::byte* from, std::span<const std::uint8_t> widths, N* numbers) {
 #if ISOATLAS_HAS_AVX512
     if (kHasAvx512) return read_groups_wide(from, widths, numbers);
-    if constexpr (sizeof(N) == 2 || sizeof(N) == 4) {
-        if (kHasFused) return read_groups_avx2(from, widths, numbers);
-    }
+    if (kHasFused) return read_groups_avx2(from, widths, numbers);
 #endif
     for (const int width : widths) {
         read_group(from, width, numbers);
@@ -201,21 +254,51 @@ void read_groups(const std::byte* from, std::span<const std::uint8_t> widths, N*
     }
 }
 
-/// Reads groups of variable widths; false when the input is too short.
+/// Reads groups of variable widths, whose sum is `size`; false when the input is too short.
 template <class N>
-bool take_groups(std::span<const std::byte>& packed, std::span<const std::uint8_t> widths, N* numbers) {
-    const std::size_t size = std::accumulate(widths.begin(), widths.end(), std::size_t{0});
+bool take_groups(std::span<const std::byte>& packed, std::span<const std::uint8_t> widths, std::size_t size, N* numbers) {
     if (packed.size() < size) return false;
     if (packed.size() >= size + kLookedAt<N>) {
         read_groups(packed.data(), widths, numbers);
     } else {
-        std::vector<std::byte> padded(packed.begin(), packed.begin() + static_cast<std::ptrdiff_t>(size));
-        padded.resize(size + kLookedAt<N>);
+        std::array<std::byte, kTogether * 8 * sizeof(N) + kLookedAt<N>> padded;
+        std::copy_n(packed.begin(), size, padded.begin());
+        std::fill_n(padded.begin() + static_cast<std::ptrdiff_t>(size), kLookedAt<N>, std::byte{0});
         read_groups(padded.data(), widths, numbers);
     }
     packed = packed.subspan(size);
     return true;
 }
+
+/// Widths of at most kTogether groups, zeros up to a multiple of 8.
+struct WidthsOfGroups {
+    std::array<std::uint8_t, kTogether> of;
+    int max = 0;
+    std::size_t sum = 0;
+
+    /// Reads those of `count` groups, stored in `more` bits each, less `min`; false when the input is too short.
+    [[nodiscard, gnu::always_inline]] bool take(std::span<const std::byte>& packed, std::size_t count, int min, int more) {
+        const std::size_t eights = (count + 7) / 8;
+        std::array<std::uint8_t, kTogether / 8> equal{};
+        std::fill_n(equal.begin(), eights, static_cast<std::uint8_t>(more));
+        of.fill(0);
+        if (!take_groups<std::uint8_t>(packed, std::span(equal).first(eights), eights * static_cast<std::size_t>(more), of.data()))
+            return false;
+        finish(count, min);
+        return true;
+    }
+
+private:
+    [[gnu::always_inline]] void finish(std::size_t count, int min) {
+        for (std::size_t i = count; i < kTogether && i % 8 != 0; ++i) of[i] = 0;
+        std::uint8_t widest = 0;
+        std::uint32_t all = 0;
+        for (std::size_t i = 0; i < kTogether; ++i) widest = std::max(widest, of[i]), all += of[i];
+        for (std::size_t i = 0; i < count; ++i) of[i] = static_cast<std::uint8_t>(of[i] + min);
+        max = widest + min;
+        sum = all + count * static_cast<std::size_t>(min);
+    }
+};
 
 }  // namespace
 
@@ -240,7 +323,7 @@ void pack_groups(std::span<const N> numbers, std::vector<std::byte>& out) {
 }
 
 template <class N>
-bool unpack_groups(std::span<const std::byte>& packed, std::span<N> numbers) {
+ISOATLAS_TARGET_CLONES bool unpack_groups(std::span<const std::byte>& packed, std::span<N> numbers) {
     if (packed.size() < 2) return false;
     const int min = static_cast<int>(packed[0]), more = static_cast<int>(packed[1]);
     packed = packed.subspan(2);
@@ -248,16 +331,11 @@ bool unpack_groups(std::span<const std::byte>& packed, std::span<N> numbers) {
     if (more > 7 || static_cast<std::int64_t>(packed.size()) < size) return false;
     std::span<const std::byte> widths = packed.first(static_cast<std::size_t>(size));
     packed = packed.subspan(widths.size());
-    std::array<std::uint8_t, kGroup> group{};
-    for (std::size_t i = 0; i < numbers.size(); i += 8 * kGroup) {
-        const std::array<std::uint8_t, 1> width_of_widths{static_cast<std::uint8_t>(more)};
-        if (!take_groups<std::uint8_t>(widths, width_of_widths, group.data())) return false;
-        for (std::uint8_t& width : group) {
-            if (min + width > static_cast<int>(8 * sizeof(N))) return false;
-            width = static_cast<std::uint8_t>(width + min);
-        }
-        const std::size_t count = std::min<std::size_t>(8, (numbers.size() - i) / kGroup);
-        if (!take_groups<N>(packed, std::span(group).first(count), numbers.data() + i)) return false;
+    for (std::size_t i = 0; i < numbers.size(); i += kTogether * kGroup) {
+        const std::size_t count = std::min(kTogether, (numbers.size() - i) / kGroup);
+        WidthsOfGroups widths_of;
+        if (!widths_of.take(widths, count, min, more) || widths_of.max > static_cast<int>(8 * sizeof(N))) return false;
+        if (!take_groups<N>(packed, std::span(widths_of.of).first(count), widths_of.sum, numbers.data() + i)) return false;
     }
     return true;
 }

@@ -3,17 +3,19 @@
 #include <algorithm>
 #include <array>
 #include <concepts>
+#include <cstring>
 
 #include "base/check.h"
 #include "base/sample_types.h"
 #include "codec/bit_groups.h"
 #include "codec/float_units.h"
 #include "codec/sample_keys.h"
+#include "codec/whole_brick.h"
 
 namespace isoatlas {
 namespace {
 
-enum class Kind : std::uint8_t { keys = 0, exact_units = 1, units_with_tails = 2 };
+enum class Kind : std::uint8_t { keys = 0, exact_units = 1, units_with_tails = 2, raw = 3 };
 
 /// The first byte of a brick.
 struct Head {
@@ -24,10 +26,11 @@ struct Head {
         return static_cast<std::uint8_t>(static_cast<int>(kind) << 6 | orders[2] << 4 | orders[1] << 2 | orders[0]);
     }
     static Head of(std::uint8_t byte) { return {static_cast<Kind>(byte >> 6), {byte & 3, byte >> 2 & 3, byte >> 4 & 3}}; }
-    [[nodiscard]] bool is_known() const { return static_cast<int>(kind) < 3 && std::ranges::max(orders) < 3; }
+    [[nodiscard]] bool is_known() const { return kind == Kind::raw ? orders == Orders{0, 0, 0} : std::ranges::max(orders) < 3; }
 };
 
-constexpr std::int64_t kFewTailBits = 4;  ///< bits a sample: below this, keys were never better by more than 1 %
+constexpr std::int64_t kRawWhereLess = 8;  ///< samples are kept as they are where coding saves less than this part of them
+constexpr std::int64_t kFewTailBits = 4;   ///< bits a sample: below this, keys were never better by more than 1 %
 
 /// The numbers of a brick, padded with zeros to whole groups.
 template <class N>
@@ -101,6 +104,20 @@ BrickCode best_of_keys(std::span<const T> samples, const Index3& size, T low) {
     return best_orders(numbers, size, Kind::keys);
 }
 
+template <class T>
+BrickCode best_coded(std::span<const T> samples, const Index3& size, T low) {
+    if constexpr (std::floating_point<T>) {
+        if (const std::optional<Units> units = units_of(samples)) {
+            const std::int64_t tails = units->exact ? 0 : tail_bits(samples, *units);
+            const BrickCode code = best_in_units(samples, size, low, *units, tails);
+            if (tails <= kFewTailBits * static_cast<std::int64_t>(samples.size())) return code;
+            const BrickCode keys = best_of_keys(samples, size, low);
+            return code.bytes < keys.bytes ? code : keys;
+        }
+    }
+    return best_of_keys(samples, size, low);
+}
+
 void append_exponent(int exponent, std::vector<std::byte>& out) {
     out.push_back(static_cast<std::byte>(exponent & 0xff));
     out.push_back(static_cast<std::byte>(exponent >> 8 & 0xff));
@@ -116,8 +133,12 @@ template <class N>
 bool take_numbers(std::span<const std::byte>& packed, const Index3& size, const Orders& orders, N low, Numbers<N>& numbers) {
     Numbers<N> stored(numbers.size);
     if (!unpack_groups<N>(packed, stored.groups())) return false;
-    disarrange<N>(stored.samples(), size, orders, numbers.samples());
-    undo_differences<N>(numbers.samples(), size, orders);
+    if (size == kBrickSize) {
+        restore_whole_brick<N>(stored.samples(), orders, numbers.samples());
+    } else {
+        disarrange<N>(stored.samples(), size, orders, numbers.samples());
+        undo_differences<N>(numbers.samples(), size, orders);
+    }
     for (N& number : numbers.samples()) number = static_cast<N>(number + low);
     return true;
 }
@@ -153,16 +174,9 @@ std::pair<T, T> extremes_of(std::span<const T> samples) {
 
 template <class T>
 BrickCode choose_code(std::span<const T> samples, const Index3& size, T low) {
-    if constexpr (std::floating_point<T>) {
-        if (const std::optional<Units> units = units_of(samples)) {
-            const std::int64_t tails = units->exact ? 0 : tail_bits(samples, *units);
-            const BrickCode code = best_in_units(samples, size, low, *units, tails);
-            if (tails <= kFewTailBits * static_cast<std::int64_t>(samples.size())) return code;
-            const BrickCode keys = best_of_keys(samples, size, low);
-            return code.bytes < keys.bytes ? code : keys;
-        }
-    }
-    return best_of_keys(samples, size, low);
+    const BrickCode coded = best_coded(samples, size, low);
+    const auto bytes = static_cast<std::int64_t>(samples.size_bytes());
+    return coded.bytes > bytes - bytes / kRawWhereLess ? BrickCode{Head{Kind::raw}.byte(), 1 + bytes} : coded;
 }
 
 template <class T>
@@ -170,6 +184,11 @@ void encode_brick(std::span<const T> samples, const Index3& size, T low, std::ui
     const Head head = Head::of(first);
     Numbers<Key<T>> numbers(samples.size());
     out.push_back(static_cast<std::byte>(first));
+    if (head.kind == Kind::raw) {
+        const std::span<const std::byte> bytes = std::as_bytes(samples);
+        out.insert(out.end(), bytes.begin(), bytes.end());
+        return;
+    }
     if (head.kind == Kind::keys) {
         fill_keys(samples, low, numbers.samples());
         pack_groups<Key<T>>(arranged(numbers, size, head.orders).groups(), out);
@@ -193,6 +212,11 @@ bool decode_brick(std::span<const std::byte> packed, const Index3& size, T low, 
     const Head head = Head::of(static_cast<std::uint8_t>(packed.front()));
     packed = packed.subspan(1);
     if (!head.is_known()) return false;
+    if (head.kind == Kind::raw) {
+        if (packed.size() != samples.size_bytes()) return false;
+        std::memcpy(samples.data(), packed.data(), packed.size());
+        return true;
+    }
     if (head.kind == Kind::keys) return decode_keys(packed, size, low, head, samples);
     if constexpr (std::floating_point<T>) return decode_units(packed, size, low, head, samples);
     return false;

@@ -1,9 +1,12 @@
-// Lossless compression of a brick of samples: finite differences of integers, packed in groups of minimal bit width.
+// Lossless compression of a brick of samples: finite differences of integers, packed in groups of minimal bit width; or the samples as they
+// are.
 //
 //   1 byte    orders of the differences along x, y, z (differences.h), two bits each; plus 64 or 128 for floats in units
 //   2 bytes   floats in units only: exponent of the unit (float_units.h), as int16
 //   groups    (bit_groups.h) the differences, arranged (differences.h), padded with zeros to a multiple of 8
 //   tails     floats in units with 128 in the first byte only (float_units.h)
+//
+// or 192, then the samples as they are, where the above saves less than an eighth of them.
 //
 // The numbers are relative to that of the lowest sample, which is stored elsewhere: order-preserving keys
 // (sample_keys.h), or floats in units. A constant brick has no bytes.

@@ -5,8 +5,6 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
-#include <type_traits>
-#include <utility>
 
 #include "base/check.h"
 #include "base/target_clones.h"
@@ -72,23 +70,20 @@ public:
     /// The next bits, at most 56; zeros after the end.
     std::uint64_t take(int bits) {
         std::uint64_t word;
-        std::memcpy(&word, bytes_.data() + std::min(position_ / 8, size_), 8);
+        std::memcpy(&word, next(), 8);
         word = word >> position_ % 8 & kMasks[static_cast<std::size_t>(bits)];
         position_ += static_cast<std::size_t>(bits);
         return word;
     }
-    /// `bits` (at most 56) from a position on.
-    [[nodiscard]] std::uint64_t at(std::size_t position, int bits) const {
-        std::uint64_t word;
-        std::memcpy(&word, bytes_.data() + position / 8, 8);
-        return word >> position % 8 & ((std::uint64_t{1} << bits) - 1);
-    }
-    [[nodiscard]] const std::byte* data() const { return bytes_.data(); }
-    [[nodiscard]] bool is_at_end() const { return ends_at(position_); }
-    [[nodiscard]] bool ends_at(std::size_t position) const { return (position + 7) / 8 == size_; }
+    /// The byte of the next bit, with kLookedAt readable ones, and its place there.
+    [[nodiscard]] const std::byte* next() const { return bytes_.data() + std::min(position_ / 8, size_); }
+    [[nodiscard]] std::uint32_t place() const { return static_cast<std::uint32_t>(position_ % 8); }
+    void skip(std::uint64_t bits) { position_ += bits; }
+    [[nodiscard]] bool is_at_end() const { return (position_ + 7) / 8 == size_; }
+
+    static constexpr std::size_t kLookedAt = 64;
 
 private:
-    static constexpr std::size_t kLookedAt = 8;  ///< bytes after the end
     static constexpr std::array<std::uint64_t, 57> kMasks = [] {
         std::array<std::uint64_t, 57> masks{};
         for (std::size_t bits = 0; bits < masks.size(); ++bits) masks[bits] = (std::uint64_t{1} << bits) - 1;
@@ -107,56 +102,75 @@ T take_small(BitReader& reader) {
     return std::bit_cast<T>(bits);
 }
 
-/// join_tails() where no sample is of 0 units: the position of each tail is known in advance.
+/// Adds its tail to a sample of whole units. The lowest bits of a mantissa are those below the unit.
 template <class T>
-[[gnu::always_inline]] inline bool join_each(const BitReader& reader, std::span<const std::int8_t> bits, std::span<T> samples) {
-    std::array<std::uint32_t, kBrickSamples> position;
-    std::uint32_t end = 0;
-    for (std::size_t i = 0; i < samples.size(); ++i) position[i] = std::exchange(end, end + static_cast<std::uint32_t>(bits[i]));
-    if (!reader.ends_at(end)) return false;
-    for (std::size_t i = 0; i < samples.size(); ++i)
-        samples[i] = std::bit_cast<T>(static_cast<Key<T>>(std::bit_cast<Key<T>>(samples[i]) | reader.at(position[i], bits[i])));
-    return true;
+T with_tail(T sample, Key<T> number, const Units& units, BitReader& reader) {
+    if (number == 0) return take_small<T>(reader);
+    const int bits = std::clamp(units.exponent - Parts<T>(sample).place, 0, 56);
+    return std::bit_cast<T>(static_cast<Key<T>>(std::bit_cast<Key<T>>(sample) | reader.take(bits)));
 }
 
-#if ISOATLAS_HAS_AVX512
-constexpr std::int8_t kMaxTogether = 24;  ///< bits that are whole in 4 bytes, wherever they begin
+template <class T>
+void join_each(std::span<const Key<T>> numbers, const Units& units, std::size_t first, std::size_t end, BitReader& reader, T* samples) {
+    for (std::size_t i = first; i < end; ++i) samples[i] = with_tail(samples[i], numbers[i], units, reader);
+}
 
-/// AVX-512 version for 16 floats, none with more than kMaxTogether bits.
-ISOATLAS_AVX512 bool join_wide(const BitReader& reader, std::span<const std::int8_t> bits, std::span<float> samples) {
-    const __m512i zero = _mm512_setzero_si512(), one = _mm512_set1_epi32(1);
-    __m512i end = zero;  // of the tails before, in every lane
-    for (std::size_t i = 0; i < samples.size(); i += 16) {
-        const auto lanes = static_cast<__mmask16>(samples.size() - i >= 16 ? 0xffff : (1 << (samples.size() - i)) - 1);
-        const __m512i own = _mm512_maskz_cvtepi8_epi32(0xffff, _mm_maskz_loadu_epi8(lanes, bits.data() + i));
-        __m512i sum = own;  // of the tails up to each lane
-        sum = _mm512_add_epi32(sum, _mm512_maskz_alignr_epi32(0xffff, sum, zero, 15));
-        sum = _mm512_add_epi32(sum, _mm512_maskz_alignr_epi32(0xffff, sum, zero, 14));
-        sum = _mm512_add_epi32(sum, _mm512_maskz_alignr_epi32(0xffff, sum, zero, 12));
-        sum = _mm512_add_epi32(sum, _mm512_maskz_alignr_epi32(0xffff, sum, zero, 8));
-        const __m512i at = _mm512_add_epi32(end, _mm512_sub_epi32(sum, own));
-        const __m512i word = _mm512_mask_i32gather_epi32(zero, lanes, _mm512_maskz_srli_epi32(0xffff, at, 3), reader.data(), 1);
-        const __m512i tail = _mm512_and_si512(_mm512_maskz_srlv_epi32(0xffff, word, _mm512_and_si512(at, _mm512_set1_epi32(7))),
-                                              _mm512_sub_epi32(_mm512_maskz_sllv_epi32(0xffff, one, own), one));
-        const __m512i whole = _mm512_or_si512(_mm512_maskz_loadu_epi32(lanes, samples.data() + i), tail);
-        _mm512_mask_storeu_epi32(samples.data() + i, lanes, whole);
-        end = _mm512_add_epi32(end, _mm512_maskz_permutexvar_epi32(0xffff, _mm512_set1_epi32(15), sum));
+#if ISOATLAS_HAS_AVX512  // of that family of processors
+/// Eight floats, none of 0 units, so none has more than 23 bits: they are whole in 4 bytes, wherever they begin.
+[[gnu::always_inline]] ISOATLAS_FUSED inline void join_together(__m256i unit, BitReader& reader, float* samples) {
+    const __m256i zero = _mm256_setzero_si256(), one = _mm256_set1_epi32(1);
+    const __m256i sample = _mm256_loadu_si256(reinterpret_cast<const __m256i*>(samples));
+    const __m256i exponent = _mm256_and_si256(_mm256_srli_epi32(sample, 23), _mm256_set1_epi32(0xff));
+    const __m256i own = _mm256_max_epi32(_mm256_sub_epi32(unit, _mm256_max_epi32(exponent, one)), zero);
+    __m256i sum = own;  // of the tails up to each lane
+    sum = _mm256_add_epi32(sum, _mm256_slli_si256(sum, 4));
+    sum = _mm256_add_epi32(sum, _mm256_slli_si256(sum, 8));
+    sum = _mm256_add_epi32(sum, _mm256_shuffle_epi32(_mm256_permute2x128_si256(sum, sum, 0x08), 0xff));
+    const __m256i at = _mm256_add_epi32(_mm256_set1_epi32(static_cast<int>(reader.place())), _mm256_sub_epi32(sum, own));
+    const __m256i word = _mm256_i32gather_epi32(reinterpret_cast<const int*>(reader.next()), _mm256_srli_epi32(at, 3), 1);
+    const __m256i kept = _mm256_sub_epi32(_mm256_sllv_epi32(one, own), one);
+    const __m256i tail = _mm256_and_si256(_mm256_srlv_epi32(word, _mm256_and_si256(at, _mm256_set1_epi32(7))), kept);
+    _mm256_storeu_si256(reinterpret_cast<__m256i*>(samples), _mm256_or_si256(sample, tail));
+    reader.skip(static_cast<std::uint32_t>(_mm256_extract_epi32(sum, 7)));
+}
+
+/// Four doubles with at most 52 bits each.
+[[gnu::always_inline]] ISOATLAS_FUSED inline void join_together(__m256i unit, BitReader& reader, double* samples) {
+    const __m256i one = _mm256_set1_epi64x(1);
+    const __m256i sample = _mm256_loadu_si256(reinterpret_cast<const __m256i*>(samples));
+    const __m256i exponent = _mm256_and_si256(_mm256_srli_epi64(sample, 52), _mm256_set1_epi64x(0x7ff));
+    // exponents are 0 in the upper halves of the lanes: 32 bits suffice to compare
+    __m256i own = _mm256_sub_epi32(unit, _mm256_max_epi32(exponent, one));
+    own = _mm256_max_epi32(own, _mm256_setzero_si256());
+    __m256i sum = _mm256_add_epi64(own, _mm256_slli_si256(own, 8));
+    sum = _mm256_add_epi64(sum, _mm256_shuffle_epi32(_mm256_permute2x128_si256(sum, sum, 0x08), 0xee));
+    const __m256i at = _mm256_add_epi64(_mm256_set1_epi64x(reader.place()), _mm256_sub_epi64(sum, own));
+    const __m256i word = _mm256_i64gather_epi64(reinterpret_cast<const long long*>(reader.next()), _mm256_srli_epi64(at, 3), 1);
+    const __m256i kept = _mm256_sub_epi64(_mm256_sllv_epi64(one, own), one);
+    const __m256i tail = _mm256_and_si256(_mm256_srlv_epi64(word, _mm256_and_si256(at, _mm256_set1_epi64x(7))), kept);
+    _mm256_storeu_si256(reinterpret_cast<__m256i*>(samples), _mm256_or_si256(sample, tail));
+    reader.skip(static_cast<std::uint64_t>(_mm256_extract_epi64(sum, 3)));
+}
+
+/// join_each() for all, in vectors where no number is 0.
+template <class T>
+ISOATLAS_FUSED void join_avx2(std::span<const Key<T>> numbers, const Units& units, BitReader& reader, std::span<T> samples) {
+    constexpr std::size_t kLanes = 32 / sizeof(T);
+    const int from_least = units.exponent - kMinPlace<T> + 1;  // the exponent of a float with the unit as its last place
+    const __m256i unit = sizeof(T) == 4 ? _mm256_set1_epi32(from_least) : _mm256_set1_epi64x(from_least);
+    std::size_t i = 0;
+    for (; i + kLanes <= samples.size(); i += kLanes) {
+        const __m256i number = _mm256_loadu_si256(reinterpret_cast<const __m256i*>(numbers.data() + i));
+        const __m256i zero = _mm256_setzero_si256();
+        const __m256i is_zero = sizeof(T) == 4 ? _mm256_cmpeq_epi32(number, zero) : _mm256_cmpeq_epi64(number, zero);
+        if (_mm256_testz_si256(is_zero, is_zero) != 0)
+            join_together(unit, reader, samples.data() + i);
+        else
+            join_each<T>(numbers, units, i, i + kLanes, reader, samples.data());
     }
-    return reader.ends_at(static_cast<std::uint32_t>(_mm_cvtsi128_si32(_mm512_maskz_extracti32x4_epi32(0xf, end, 0))));
+    join_each<T>(numbers, units, i, samples.size(), reader, samples.data());
 }
 #endif
-
-/// join_each(), by the fastest code path of this processor.
-template <class T>
-[[gnu::always_inline]] inline bool join_fast(const BitReader& reader, std::span<const std::int8_t> bits, std::span<T> samples) {
-#if ISOATLAS_HAS_AVX512
-    if constexpr (std::is_same_v<T, float>) {
-        if (kHasAvx512 && std::ranges::all_of(bits, [](std::int8_t own) { return own <= kMaxTogether; }))
-            return join_wide(reader, bits, samples);
-    }
-#endif
-    return join_each(reader, bits, samples);
-}
 
 template <class T>
 T power_of_2(int exponent) {
@@ -215,24 +229,18 @@ void append_tails(std::span<const T> samples, const Units& units, std::vector<st
 }
 
 template <class T>
-ISOATLAS_TARGET_CLONES bool join_tails(std::span<const Key<T>> numbers, std::span<const std::byte> tails, const Units& units,
-                                       std::span<T> samples) {
+bool join_tails(std::span<const Key<T>> numbers, std::span<const std::byte> tails, const Units& units, std::span<T> samples) {
     if (units.exponent < kMinPlace<T> || units.exponent >= std::numeric_limits<T>::max_exponent) return false;
     if (tails.size() > BitReader::kMax || samples.size() > static_cast<std::size_t>(kBrickSamples)) return false;
     from_units(numbers, units, samples);
-    std::array<std::int8_t, kBrickSamples> bits;
-    for (std::size_t i = 0; i < samples.size(); ++i)
-        bits[i] = static_cast<std::int8_t>(std::clamp(units.exponent - Parts<T>(samples[i]).place, 0, 56));
     BitReader reader(tails);
-    if (std::none_of(numbers.begin(), numbers.begin() + static_cast<std::ptrdiff_t>(samples.size()), [](Key<T> n) { return n == 0; }))
-        return join_fast<T>(reader, std::span<const std::int8_t>(bits).first(samples.size()), samples);
-    for (std::size_t i = 0; i < samples.size(); ++i) {
-        if (numbers[i] == 0) {
-            samples[i] = take_small<T>(reader);
-        } else {  // the lowest bits of a mantissa are those below the unit
-            samples[i] = std::bit_cast<T>(static_cast<Key<T>>(std::bit_cast<Key<T>>(samples[i]) | reader.take(bits[i])));
-        }
+#if ISOATLAS_HAS_AVX512
+    if (kHasFused) {
+        join_avx2(numbers, units, reader, samples);
+        return reader.is_at_end();
     }
+#endif
+    join_each<T>(numbers, units, 0, samples.size(), reader, samples.data());
     return reader.is_at_end();
 }
 

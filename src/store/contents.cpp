@@ -238,10 +238,10 @@ Contents contents_of_json(std::string_view text, const std::string& path, std::i
     const Json json = Json::parse(text);
     Contents contents;
     const std::int64_t version = integer(json.at("version"));
-    if (version < 1 || version > kPolarityVersion) {
+    if (version < 1 || version > kStoreVersion) {
         throw Error(ErrorKind::unsupported, {.file = path,
                                              .what = "is a store of version " + std::to_string(version),
-                                             .expected = "version 1 to " + std::to_string(kPolarityVersion),
+                                             .expected = "version 1 to " + std::to_string(kStoreVersion),
                                              .next = "use the version of isoatlas that built it, or build it again",
                                              .reason = Reason::unknown_store_version});
     }

@@ -16,8 +16,7 @@
 
 namespace isoatlas {
 
-inline constexpr int kStoreVersion = 3;
-inline constexpr int kPolarityVersion = 4;    // of stores with objects of low values: version 3 with another set of arrays
+inline constexpr int kStoreVersion = 5;
 inline constexpr int kFirstExactVersion = 3;  // since this version values of saddles are rounded once (critical/element_values.h)
 
 /// Numbers in a row of bytes, little endian, first index slowest.

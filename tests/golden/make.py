@@ -48,9 +48,10 @@ VOLUMES = {   # name: type, size, values, lines of the header, options of the bu
     "uint16_noise_faces": ("uint16", (12, 11, 12), lambda size: [int(3000 * v) for v in noise(size, 3)], "", ["--interpolant", "faces"]),
     "int16_tunnels": ("int16", (9, 8, 10), lambda size: [round(400 * v) - 200 for v in noise(size, 4)], "", ["--tunnel-height", "3%"]),
     "int16_both": ("int16", (13, 11, 12), lambda size: [round(900 * v) - 300 for v in field(size, 6)], GEOMETRY, ["--polarity", "both"]),
+    "uint16_raw": ("uint16", (17, 16, 9), lambda size: [int(65535 * v) for v in noise(size, 7)], "", []),
     "flat": ("uint8", (20, 15, 1), lambda size: [round(99 * v) for v in field(size, 5)], "", []),
 }
-OF_VERSION_4 = {"int16_both"}   # with objects of low values; all others are stores of version 3
+FIRST_OF = {"int16_both": 4, "uint16_raw": 5}   # the others are stores of every version
 
 
 def main(version):
@@ -58,7 +59,7 @@ def main(version):
     folder.mkdir()
     with tempfile.TemporaryDirectory() as scratch:
         for name, (kind, size, values, more, options) in VOLUMES.items():
-            if (name in OF_VERSION_4) != (int(version) >= 4):
+            if FIRST_OF.get(name, 1) > int(version):
                 continue
             volume, store = pathlib.Path(scratch) / f"{name}.nrrd", folder / f"{name}.atlas"
             nrrd(volume, kind, size, values(size), more)

@@ -7,6 +7,11 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <random>
+#include <type_traits>
+#include <vector>
+
+#include "codec/float_units.h"
 
 namespace isoatlas {
 namespace {
@@ -117,6 +122,56 @@ TEST(BrickCodec, SmoothSamplesTakeLittle) {
     check_round_trip(brick, code.head);
 }
 
+/// A brick of the full size, whose samples differ by about a part `noise` of its range; the others are zeros.
+template <class T>
+Brick<T> noisy_brick(double noise, int zeros_in_ten) {
+    Brick<T> brick{kBrickSize, {}};
+    std::mt19937 random(7);
+    const auto draw = [&random] { return static_cast<double>(random()) / 4294967296.0; };
+    for (int i = 0; i < kBrickSamples; ++i) {
+        const double value = 100 * ((1 - noise) * (i % 16 + i / 128) / 24 + noise * draw());
+        brick.samples.push_back(static_cast<int>(random() % 10) < zeros_in_ten ? T{0} : static_cast<T>(value));
+    }
+    return brick;
+}
+
+/// Round trips with every code that fits the samples: of floats one of the two kinds in units does.
+template <class T>
+void check_every_code(const Brick<T>& brick) {
+    std::vector<int> kinds{0};
+    if constexpr (std::is_floating_point_v<T>) kinds.push_back(units_of<T>(brick.samples)->exact ? 64 : 128);
+    for (int orders = 0; orders < 27; ++orders) {
+        for (const int kind : kinds)
+            check_round_trip(brick, static_cast<std::uint8_t>(kind | orders % 3 | orders / 3 % 3 << 2 | orders / 9 << 4));
+    }
+    check_round_trip(brick, 192);
+}
+
+TEST(BrickCodec, WholeBricksGiveTheSameBits) {
+    for (const double noise : {0.0, 0.01, 1.0}) {
+        for (const int zeros : {0, 1, 9}) {
+            check_every_code(noisy_brick<float>(noise, zeros));
+            check_every_code(noisy_brick<double>(noise, zeros));
+            check_every_code(noisy_brick<std::uint16_t>(noise, zeros));
+        }
+    }
+}
+
+TEST(BrickCodec, SamplesStayAsTheyAreWhereCodingSavesLessThanAnEighth) {
+    Brick<std::uint16_t> brick{kBrickSize, {}};
+    const auto bytes_with = [&brick](int bits) {
+        std::mt19937 random(8);
+        brick.samples.clear();
+        for (int i = 0; i < kBrickSamples; ++i) brick.samples.push_back(static_cast<std::uint16_t>(random() >> (32 - bits)));
+        return choose_code<std::uint16_t>(brick.samples, brick.size, extremes_of<std::uint16_t>(brick.samples).first);
+    };
+    EXPECT_EQ(bytes_with(15).head, 192);
+    EXPECT_EQ(bytes_with(15).bytes, 1 + 2 * kBrickSamples);
+    EXPECT_EQ(bytes_with(13).head, 0);
+    EXPECT_LT(bytes_with(13).bytes, 2 * kBrickSamples * 7 / 8);
+    check_round_trip(brick, 192);
+}
+
 TEST(BrickCodec, ConstantBricksHaveNoBytes) {
     std::vector<std::int16_t> samples(7);
     EXPECT_TRUE(decode_brick<std::int16_t>({}, {7, 1, 1}, -5, samples));
@@ -128,7 +183,7 @@ TEST(BrickCodec, UnknownCodesAreRefused) {
     std::vector<std::byte> packed = packed_as(brick, 0);
     std::vector<std::uint8_t> back(3);
     ASSERT_TRUE(decode_brick<std::uint8_t>(packed, brick.size, 1, back));
-    for (const int head : {3, 12, 48, 64, 128, 192}) {
+    for (const int head : {3, 12, 48, 64, 128, 192, 193, 255}) {
         packed[0] = static_cast<std::byte>(head);
         EXPECT_FALSE(decode_brick<std::uint8_t>(packed, brick.size, 1, back)) << head;
     }

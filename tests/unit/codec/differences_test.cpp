@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <vector>
 
+#include "codec/whole_brick.h"
+
 namespace isoatlas {
 namespace {
 
@@ -48,6 +50,25 @@ RC_GTEST_PROP(Differences, AreThoseOfTheDefinition, ()) {
     }
     undo_differences<std::uint8_t>(taken, box.size, box.orders);
     RC_ASSERT(taken == box.numbers);
+}
+
+template <class N>
+void check_whole_brick(const Orders& orders) {
+    auto arranged = *rc::gen::container<std::vector<N>>(static_cast<std::size_t>(kBrickSamples), rc::gen::arbitrary<N>());
+    std::vector<N> copy = arranged, expected(arranged.size()), restored(arranged.size());
+    disarrange<N>(copy, kBrickSize, orders, expected);
+    undo_differences<N>(expected, kBrickSize, orders);
+    restore_whole_brick<N>(arranged, orders, restored);
+    RC_ASSERT(restored == expected);
+}
+
+RC_GTEST_PROP(Differences, OfAWholeBrickAreUndoneAtOnce, ()) {
+    Orders orders;
+    for (int& order : orders) order = *rc::gen::inRange(0, 3);
+    check_whole_brick<std::uint8_t>(orders);
+    check_whole_brick<std::uint16_t>(orders);
+    check_whole_brick<std::uint32_t>(orders);
+    check_whole_brick<std::uint64_t>(orders);
 }
 
 RC_GTEST_PROP(Differences, AreArrangedAndBack, ()) {
