@@ -18,6 +18,7 @@ namespace isoatlas {
 
 inline constexpr int kStoreVersion = 5;
 inline constexpr int kFirstExactVersion = 3;  // since this version values of saddles are rounded once (critical/element_values.h)
+inline constexpr int kFirstRawVersion = 5;    // since this version bricks may be raw (codec/brick_codec.h)
 
 /// Numbers in a row of bytes, little endian, first index slowest.
 struct StoredArray {
