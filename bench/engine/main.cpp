@@ -1,9 +1,9 @@
 // bench_engine: what does an analysis cost, measured in sorts, and how much memory does it need?
 //
-//   bench_engine [--data FOLDER] [--cache FOLDER] [--json FILE] [--threads N] [--pairs N] [--growth] [VOLUME...]
+//   bench_engine [--data FOLDER] [--cache FOLDER] [--json FILE] [--threads N] [--pairs N] [--no-sort] [VOLUME...]
 //
 // For each volume: std::sort of its (value, index) pairs and analyse, in turns, medians of --pairs pairs; the answers are checked first.
-// --growth adds 128^3, 256^3, 512^3 of the smooth and the noisy field, without the sort.
+// --no-sort leaves the sort out. Analyses run on one thread, on --threads and, where there are more, on all processors.
 #include <cstdio>
 #include <exception>
 #include <filesystem>
@@ -24,7 +24,6 @@ struct Arguments {
     Sources sources{"build/bench/volumes", ""};
     std::string json;
     Options options;
-    bool growth = false;
     std::string memory_of;  ///< set in the measuring process
     std::vector<std::string> names;
 };
@@ -49,8 +48,8 @@ Arguments parse(int argc, char** argv) {
             arguments.options.pairs = std::stoi(value());
         else if (word == "--memory-of")
             arguments.memory_of = value();
-        else if (word == "--growth")
-            arguments.growth = true;
+        else if (word == "--no-sort")
+            arguments.options.sort = false;
         else if (word.starts_with("--"))
             throw std::runtime_error("unknown option " + word);
         else
@@ -75,12 +74,10 @@ std::int64_t peak_of(const std::string& name, const Arguments& arguments) {
                                 "--threads", std::to_string(arguments.options.threads)});
 }
 
-ordered_json record_of(const std::string& name, const Arguments& arguments, bool with_sort) {
+ordered_json record_of(const std::string& name, const Arguments& arguments) {
     Answer answer{};
-    Options options = arguments.options;
-    options.sort = with_sort;
     const isoatlas::Volume volume = make(name, arguments.sources);
-    const Timing timing = measure(volume, options, answer);
+    const Timing timing = measure(volume, arguments.options, answer);
     const std::int64_t voxels = volume.info.extent.voxels();
     const std::int64_t peak = peak_of(name, arguments);
     const std::int64_t allowed = 12 * voxels + 64 * timing.trilinear_elements;
@@ -93,13 +90,13 @@ ordered_json record_of(const std::string& name, const Arguments& arguments, bool
                         {"maxima", answer.maxima},
                         {"events", answer.events},
                         {"seconds", timing.seconds},
-                        {"seconds_one_thread", timing.seconds_serial},
                         {"trilinear_ratio", timing.trilinear_ratio},
                         {"trilinear_elements", timing.trilinear_elements},
                         {"peak_bytes", peak},
                         {"peak_bytes_per_voxel", static_cast<double>(peak) / static_cast<double>(voxels)},
                         {"peak_over_allowed", static_cast<double>(peak) / static_cast<double>(allowed)}};
-    if (with_sort) {
+    for (const auto& [threads, seconds] : timing.seconds_by_threads) record["seconds_by_threads"][std::to_string(threads)] = seconds;
+    if (arguments.options.sort) {
         record["sort_seconds"] = timing.sort_seconds;
         record["ratio"] = timing.ratio;
         record["ratio_range"] = {timing.ratio_low, timing.ratio_high};
@@ -109,9 +106,10 @@ ordered_json record_of(const std::string& name, const Arguments& arguments, bool
 }
 
 void print_line(const ordered_json& record) {
-    std::printf("%-12s %-8s %11lld voxels %10lld elements %8.3f s %8.3f s on 1", record["volume"].get<std::string>().c_str(),
-                record["type"].get<std::string>().c_str(), record["voxels"].get<long long>(), record["critical_elements"].get<long long>(),
-                record["seconds"].get<double>(), record["seconds_one_thread"].get<double>());
+    std::printf("%-12s %-8s %11lld voxels %10lld elements", record["volume"].get<std::string>().c_str(),
+                record["type"].get<std::string>().c_str(), record["voxels"].get<long long>(), record["critical_elements"].get<long long>());
+    for (const auto& [threads, seconds] : record["seconds_by_threads"].items())
+        std::printf(" %8.3f s on %s", seconds.get<double>(), threads.c_str());
     if (record.contains("ratio"))
         std::printf("  sort %6.3f s  ratio %5.3f", record["sort_seconds"].get<double>(), record["ratio"].get<double>());
     std::printf("  %5.1f bytes/voxel (%.2f of what is allowed)\n", record["peak_bytes_per_voxel"].get<double>(),
@@ -128,10 +126,7 @@ int run_all(const Arguments& arguments) {
     ordered_json document{
         {"schema", "isoatlas-bench-engine/1"}, {"threads", arguments.options.threads}, {"pairs", arguments.options.pairs}};
     for (const std::string& name : arguments.names.empty() ? default_names(arguments.sources) : arguments.names) {
-        print_line(document["volumes"].emplace_back(record_of(name, arguments, true)));
-    }
-    for (const char* name : {"smooth-128", "smooth-256", "smooth-512", "noisy-128", "noisy-256", "noisy-512"}) {
-        if (arguments.growth) print_line(document["growth"].emplace_back(record_of(name, arguments, false)));
+        print_line(document["volumes"].emplace_back(record_of(name, arguments)));
     }
     if (arguments.json.empty()) return 0;
     std::ofstream file(arguments.json);

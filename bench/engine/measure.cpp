@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <chrono>
+#include <set>
 #include <stdexcept>
+#include <thread>
 
 #include "yardstick.h"
 
@@ -84,30 +86,37 @@ void require_equal(const Answer& answer, const Answer& other) {
 }  // namespace
 
 Timing measure(const isoatlas::Volume& volume, const Options& options, Answer& answer) {
-    answer = run(volume, options.threads).answer;  // also warms up
-    if (const std::int64_t maxima = count_maxima(volume); maxima != answer.maxima) {
-        throw std::runtime_error("wrong answer: " + std::to_string(answer.maxima) + " maxima, but there are " + std::to_string(maxima));
-    }
+    if (options.pairs > 1) (void)run(volume, options.threads);  // warms up
+    const std::int64_t maxima = count_maxima(volume);
     Timing timing;
-    std::vector<double> sorts, parallel, serial, ratios, trilinear;
+    const std::set<int> counts{1, options.threads, std::max(options.threads, static_cast<int>(std::thread::hardware_concurrency()))};
+    std::vector<double> sorts, ratios, trilinear;
+    std::map<int, std::vector<double>> seconds;
     for (int pair = 0; pair < options.pairs; ++pair) {
         if (options.sort) sorts.push_back(seconds_of_sort(volume));
         Run last = run(volume, options.threads);
+        if (pair == 0) answer = last.answer;
+        if (answer.maxima != maxima) {
+            throw std::runtime_error("wrong answer: " + std::to_string(answer.maxima) + " maxima, but there are " + std::to_string(maxima));
+        }
         require_equal(answer, last.answer);
-        parallel.push_back(last.seconds);
+        seconds[options.threads].push_back(last.seconds);
         if (options.sort) ratios.push_back(last.seconds / sorts.back());
         timing.phases = std::move(last.phases);
         const Run interior = run(volume, options.threads, isoatlas::Interpolant::trilinear);
         if (interior.answer.maxima != answer.maxima) throw std::runtime_error("wrong answer: the interpolant changes the maxima");
         timing.trilinear_elements = interior.answer.elements;
         trilinear.push_back(interior.seconds / last.seconds);
-        const Run one = run(volume, 1);
-        require_equal(answer, one.answer);
-        serial.push_back(one.seconds);
+        for (const int threads : counts) {
+            if (threads == options.threads) continue;
+            const Run other = run(volume, threads);
+            require_equal(answer, other.answer);
+            seconds[threads].push_back(other.seconds);
+        }
     }
     timing.sort_seconds = median(sorts);
-    timing.seconds = median(parallel);
-    timing.seconds_serial = median(serial);
+    timing.seconds = median(seconds[options.threads]);
+    for (const auto& [threads, values] : seconds) timing.seconds_by_threads[threads] = median(values);
     timing.ratio = median(ratios);
     timing.trilinear_ratio = median(trilinear);
     if (!ratios.empty()) {

@@ -3,6 +3,7 @@
 
 #include <isoatlas/isoatlas.h>
 
+#include <map>
 #include <string>
 #include <utility>
 #include <vector>
@@ -10,10 +11,10 @@
 namespace bench {
 
 struct Timing {
-    double sort_seconds = 0;    ///< median; 0 when the sort was not asked for
-    double seconds = 0;         ///< median of analyse on `threads` threads
-    double seconds_serial = 0;  ///< median of analyse on one thread
-    double ratio = 0;           ///< median over the pairs of analyse / sort
+    double sort_seconds = 0;                   ///< median; 0 when the sort was not asked for
+    double seconds = 0;                        ///< median of analyse on `threads` threads
+    std::map<int, double> seconds_by_threads;  ///< median of analyse on one thread, on `threads` and on all processors
+    double ratio = 0;                          ///< median over the pairs of analyse / sort
     double ratio_low = 0, ratio_high = 0;
     double trilinear_ratio = 0;  ///< median over the pairs of analyse with the trilinear interpolant / with faces only
     std::int64_t trilinear_elements = 0;

@@ -1,109 +1,81 @@
 #!/usr/bin/env python3
-"""isoatlas extract beside VTK's Flying Edges: the same raw volume, threads and normals; answers first, then medians of pairs run in turns.
+"""A surface without an index beside VTK's Flying Edges: the same samples, threads and normals. Answers first, then medians of pairs in
+turns.
 
-    compare_vtk.py BENCH_EXTRACT [--size 256] [--tau 0 2] [--threads 1 2] [--pairs 7] [--cache FOLDER] [--json FILE]
+    compare_vtk.py BENCH_EXTRACT [--volumes smooth-256 ...] [--active 0.002 0.02 0.1 0.5] [--threads 1 2] [--pairs 5]
+                   [--cache FOLDER] [--data FOLDER] [--json FILE]
 
-Needs python3-vtk9 and numpy (Debian packages; run with the system's python3).
+A quick look: --volumes smooth-64 --pairs 2. Needs python3-vtk9 and numpy (Debian packages; run with the system's python3).
 """
 import argparse
 import json
-import os
 import statistics
-import subprocess
 import sys
-import time
 from pathlib import Path
 
-import numpy as np
 import vtk
-from vtk.util.numpy_support import numpy_to_vtk
 
 sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
-from flying_edges import crossed, flying_edges
+from field import Field
+from flying_edges import crossed, flying_edges, seconds_of_contouring
+from runs import FIELDS, REAL, add_options, chosen, ours, sources, thread_counts, times_faster
+
+VOLUMES = FIELDS + REAL
 
 
-def ours(program, raw, size, tau, *options):
-    command = [program, str(raw), str(size), repr(tau), *options]
-    return json.loads(subprocess.run(command, check=True, capture_output=True, text=True).stdout)
-
-
-def vtk_components(surface):
-    connectivity = vtk.vtkPolyDataConnectivityFilter()
-    connectivity.SetInputData(surface)
-    connectivity.SetExtractionModeToAllRegions()
-    connectivity.Update()
-    return connectivity.GetNumberOfExtractedRegions()
-
-
-def check(program, raw, size, tau, image, edges_crossed):
-    """Answers first. Every crossed edge is one point of Flying Edges; our closed surface has the components of the cut."""
-    closed = ours(program, raw, size, tau, "--repeats", "1", "--check")["check"]
+def check(run, volume, tau, field, image):
+    """Every crossed edge is one point of Flying Edges; our closed surface has the components of the cut."""
+    closed = run(tau, "--repeats", 1, "--check")["check"]
     good = closed["closed"] and closed["manifold"] and closed["oriented"] and closed["zero_area_triangles"] == 0
     if not good or closed["components"] != closed["contours_of_the_cut"]:
-        sys.exit(f"wrong surface at {tau}: {closed}")
-    opened = ours(program, raw, size, tau, "--repeats", "1", "--check", "--open")
+        sys.exit(f"{volume} at {tau}: wrong surface: {closed}")
+    opened = run(tau, "--repeats", 1, "--open")
     edges = flying_edges(image, tau)
     edges.Update()
-    points = edges.GetOutput().GetNumberOfPoints()
-    if points != edges_crossed or opened["points"] < edges_crossed:
-        sys.exit(f"points at {tau}: Flying Edges {points}, isoatlas {opened['points']}, crossed edges {edges_crossed}")
-    return opened["check"]["components"], vtk_components(edges.GetOutput()), edges.GetOutput().GetNumberOfPolys()
+    points, (edges_crossed, cells) = edges.GetOutput().GetNumberOfPoints(), crossed(field.samples >= tau)
+    if points != edges_crossed or opened["points"] < edges_crossed or cells != field.active_cells(tau):
+        sys.exit(f"{volume} at {tau}: Flying Edges has {points} points, isoatlas {opened['points']}; {edges_crossed} edges are crossed")
 
 
-def compare(program, raw, size, tau, threads, pairs, image, cells):
+def compare(run, volume, tau, threads, pairs, field, image):
     vtk.vtkSMPTools.Initialize(threads)
-    our_times, vtk_times = [], []
+    own, theirs = [], []
     for _ in range(pairs):
-        result = ours(program, raw, size, tau, "--threads", str(threads), "--repeats", "3")
-        our_times.append(min(result["seconds"]))
-        best = float("inf")
-        for _ in range(3):
-            edges = flying_edges(image, tau)
-            start = time.perf_counter()
-            edges.Update()
-            best = min(best, time.perf_counter() - start)
-        vtk_times.append(best)
-    ratios = [a / b for a, b in zip(our_times, vtk_times)]
-    mine, theirs = statistics.median(our_times), statistics.median(vtk_times)
-    return {"tau": tau, "threads": threads, "active_cells": cells, "isoatlas_seconds": mine, "vtk_seconds": theirs,
-            "isoatlas_ns_per_active_cell": 1e9 * mine / cells, "vtk_ns_per_active_cell": 1e9 * theirs / cells,
-            "ratio": statistics.median(ratios), "ratio_low": min(ratios), "ratio_high": max(ratios)}
+        own.append(min(run(tau, "--threads", threads, "--repeats", 3)["seconds"]))
+        theirs.append(min(seconds_of_contouring(image, tau) for _ in range(3)))
+    cells, ratios = max(field.active_cells(tau), 1), [b / a for a, b in zip(own, theirs)]
+    mine, vtks = statistics.median(own), statistics.median(theirs)
+    return {"volume": volume, "tau": round(tau, 5), "threads": threads, "active cells": cells, "active, %": field.percent(cells),
+            "isoatlas, s": mine, "VTK, s": vtks, "ns an active cell": 1e9 * mine / cells, "VTK, ns": 1e9 * vtks / cells,
+            "times faster": times_faster(own, theirs), "lowest": min(ratios), "highest": max(ratios)}
+
+
+def measure(volume, arguments, results):
+    def run(*options):
+        return ours(arguments.program, volume, *sources(arguments), *options)
+
+    known = run()
+    field = Field(Path(arguments.cache) / f"{volume}.raw", known["size"], known["type"])
+    image = field.image()
+    for tau in field.isovalues_of(arguments.active):
+        check(run, volume, tau, field, image)
+        for threads in arguments.threads:
+            results.append(compare(run, volume, tau, threads, arguments.pairs, field, image))
+            print(results[-1], flush=True)
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("program")
-    parser.add_argument("--size", type=int, default=256)
-    parser.add_argument("--tau", type=float, nargs="+", default=[0.0, 6.0, 12.0])
-    parser.add_argument("--threads", type=int, nargs="+", default=[1, 2])
-    parser.add_argument("--pairs", type=int, default=7)
-    parser.add_argument("--cache", type=Path, default=Path("build/bench/volumes"))
-    parser.add_argument("--json", type=Path)
+    add_options(parser, VOLUMES, pairs=5)
+    parser.add_argument("--active", type=float, nargs="+", default=[0.002, 0.02, 0.1, 0.5], help="fractions of active cells")
+    parser.add_argument("--threads", type=int, nargs="+", default=thread_counts())
     arguments = parser.parse_args()
-
-    program, size = os.path.abspath(arguments.program), arguments.size
-    raw = arguments.cache / f"cosines-{size}.raw"
-    if not raw.exists():
-        raw.parent.mkdir(parents=True, exist_ok=True)
-        subprocess.run([program, "--make", str(size), str(raw)], check=True)
-    samples = np.fromfile(raw, dtype=np.float32)
-    image = vtk.vtkImageData()
-    image.SetDimensions(size, size, size)
-    image.GetPointData().SetScalars(numpy_to_vtk(samples))
-
     results = []
-    for tau in arguments.tau:
-        edges_crossed, cells = crossed(samples.reshape(size, size, size) >= np.float32(tau))
-        our_components, vtk_count, polygons = check(program, raw, size, tau, image, edges_crossed)
-        print(f"tau {tau}: {cells} active cells; components {our_components} (open), VTK {vtk_count}; VTK triangles {polygons}", flush=True)
-        for threads in arguments.threads:
-            record = compare(program, raw, size, tau, threads, arguments.pairs, image, cells)
-            results.append(record)
-            print("  {threads} threads: isoatlas {isoatlas_seconds:.3f} s, VTK {vtk_seconds:.3f} s, per active cell "
-                  "{isoatlas_ns_per_active_cell:.0f} and {vtk_ns_per_active_cell:.0f} ns, ratio {ratio:.2f} "
-                  "({ratio_low:.2f} to {ratio_high:.2f})".format(**record), flush=True)
+    for volume in chosen(arguments, VOLUMES):
+        measure(volume, arguments, results)
     if arguments.json:
-        arguments.json.write_text(json.dumps({"program": "vtkFlyingEdges3D " + vtk.vtkVersion().GetVTKVersion(), "results": results}, indent=1))
+        document = {"program": "vtkFlyingEdges3D " + vtk.vtkVersion().GetVTKVersion(), "pairs": arguments.pairs, "results": results}
+        Path(arguments.json).write_text(json.dumps(document, indent=1))
 
 
 if __name__ == "__main__":

@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
 """When has a page its first five pictures, when all? From the volume file alone: store and page are made.
 
-    first_pictures.py ISOATLAS VOLUME... [--repeats 3] [--json FILE]
+    first_pictures.py ISOATLAS [--volumes bonsai ...] [--pairs 2] [--cache FOLDER] [--data FOLDER] [--json FILE]
 
-The yardstick is the store of the same volume, built in turns: a page is a store and its pictures. Medians. Answers first: every card has a
-picture, and a surface to turn or a page that is full.
+The yardstick is the store of the same volume, built in turns: a page is a store and its pictures. Medians, of one pair where that takes a
+minute. Answers first: every card has a picture, and a surface to turn or a page that is full.
 """
 import argparse
 import json
@@ -17,6 +17,12 @@ import sys
 import tempfile
 import time
 from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
+from runs import FIELDS, REAL, add_options, chosen, file_of
+
+VOLUMES = [*FIELDS, *REAL, "tooth"]
+ENOUGH = 60  # seconds of a volume: no further pair after that
 
 
 def run(command, folder):
@@ -42,38 +48,36 @@ def pictures_of(page):
     return len(data["entries"]), sum(entry["mesh"] is not None for entry in data["entries"])
 
 
-def measure(program, volume, repeats):
+def measure(program, volume, path, pairs):
     stores, pages = [], []
-    for _ in range(repeats):
+    begin = time.perf_counter()
+    while len(pages) < pairs and (not pages or time.perf_counter() - begin < ENOUGH):
         folder = Path(tempfile.mkdtemp(prefix="isoatlas-bench-"))
         try:
-            stores.append(run([program, "build", volume, "-o", "alone.atlas", "--quiet"], folder)[0])
-            pages.append(run([program, volume, "-o", "page.html"], folder))
+            stores.append(run([program, "build", path, "-o", "alone.atlas", "--quiet"], folder)[0])
+            pages.append(run([program, path, "-o", "page.html"], folder))
             pictures, solids = pictures_of(folder / "page.html")
             size = (folder / "page.html").stat().st_size
         finally:
             shutil.rmtree(folder)
     store, all_seconds = statistics.median(stores), statistics.median(page[0] for page in pages)
     first = statistics.median(page[1] or page[0] for page in pages)
-    return {"volume": Path(volume).stem, "pictures": pictures, "that turn": solids, "store, s": store, "five pictures, s": first,
+    return {"volume": volume, "pictures": pictures, "that turn": solids, "store, s": store, "five pictures, s": first,
             "all, s": all_seconds, "processor seconds": statistics.median(page[2] for page in pages), "all, in stores": all_seconds / store,
             "peak MB": statistics.median(page[3] for page in pages) / 1e6, "page MB": size / 1e6}
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("program")
-    parser.add_argument("volumes", nargs="+")
-    parser.add_argument("--repeats", type=int, default=3)
-    parser.add_argument("--json", type=Path)
+    add_options(parser, VOLUMES, pairs=2)
     arguments = parser.parse_args()
     records = []
-    for volume in arguments.volumes:
-        records.append(measure(os.path.abspath(arguments.program), os.path.abspath(volume), arguments.repeats))
+    for volume in chosen(arguments, VOLUMES):
+        records.append(measure(arguments.program, volume, file_of(volume, arguments.program, arguments), arguments.pairs))
         print("{volume}: {pictures} pictures; store {store, s:.2f} s, first five {five pictures, s:.2f} s, all {all, s:.2f} s".format(
             **records[-1]), flush=True)
     if arguments.json:
-        arguments.json.write_text(json.dumps({"pages": records}, indent=1))
+        Path(arguments.json).write_text(json.dumps({"pages": records}, indent=1))
 
 
 if __name__ == "__main__":

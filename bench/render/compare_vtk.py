@@ -2,7 +2,8 @@
 """Volume rendering beside VTK's ray caster (vtkFixedPointVolumeRayCastMapper): the same samples, transfer function, camera, pixels and threads,
 at equal error. Pictures first, then medians of runs in turns.
 
-    compare_vtk.py BENCH_RENDER VOLUME... [--size 512] [--threads 2] [--pairs 5] [--cache FOLDER] [--json FILE]
+    compare_vtk.py BENCH_RENDER [--volumes bonsai ...] [--size 512] [--threads 2] [--pairs 3] [--cache FOLDER] [--data FOLDER]
+                   [--json FILE]
 
 Both are compared with the integral of emission and absorption, summed by numpy eight steps to a voxel along every eighth ray both ways: the
 mean over those pixels and their colours of the difference, in linear light; 1 is white. With a light ("shaded") the two differ in what they
@@ -18,17 +19,20 @@ import json
 import os
 import shutil
 import statistics
-import subprocess
 import sys
 import time
 from pathlib import Path
 
 import numpy as np
 
-MOST_DIFFERENCE = 0.01  # a few steps of an 8-bit channel
+sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
+from runs import FIELDS, REAL, add_options, chosen, ours, sources, times_faster
+
+VOLUMES = [*FIELDS, *REAL, "heptane"]
+MOST_DIFFERENCE = 0.01  # of our finest picture: a few steps of an 8-bit channel, or a tenth of the light
 EVERY = 8               # pixels between two rays of the integral
 FINE = 8                # steps of the integral to a voxel
-STEPS = (1, 1.25, 1.5, 1.75, 2, 2.25, 2.5, 2.75, 3)  # ours, in voxels
+STEPS = (0.25, 0.5, 0.75, 1, 1.25, 1.5, 1.75, 2, 2.25, 2.5, 2.75, 3)  # ours, in voxels; the first for noise
 
 
 def under_a_display():
@@ -37,13 +41,6 @@ def under_a_display():
     if shutil.which("xvfb-run") is None:
         sys.exit("compare_vtk: VTK needs a display to show its picture: install xvfb and xauth")
     os.execvp("xvfb-run", ["xvfb-run", "-a", sys.executable, *sys.argv])
-
-
-def ours(program, *arguments):
-    done = subprocess.run([program, *map(str, arguments)], capture_output=True, text=True)
-    if done.returncode != 0:
-        sys.exit(done.stderr)
-    return json.loads(done.stdout)
 
 
 def linear(colour):
@@ -184,45 +181,50 @@ def difference(a, b):
 
 
 def longest_step(draw, most):
-    """The longest step at which draw(step), the error, is at most `most` there and at all shorter ones; and the error. The first step if
-    none is."""
-    best = STEPS[0], draw(STEPS[0])
-    for step in STEPS[1:]:
-        error = draw(step)
-        if error > most:
-            break
-        best = step, error
+    """The longest step at which draw(step), the error, is at most `most` there and at all shorter ones from a voxel on, and the error; the
+    longest one below where that is too long; the first if none is."""
+    best, i = None, STEPS.index(1)
+    while i < len(STEPS) and (error := draw(STEPS[i])) <= most:
+        best, i = (STEPS[i], error), i + 1
+    while best is None:
+        i -= 1
+        error = draw(STEPS[i])
+        best = (STEPS[i], error) if error <= most or i == 0 else None
     return best
 
 
-def compare(program, path, arguments):
-    size, threads, cache = arguments.size, arguments.threads, arguments.cache
+def compare(volume, arguments):
+    size, threads, cache = arguments.size, arguments.threads, Path(arguments.cache)
     raw, picture = cache / "render.raw", cache / "render.rgba"
-    drawn = ours(program, path, "--flat", "--size", size, "--samples", 1, "--raw", raw, "--repeats", 1)
+
+    def draw(*options):
+        return ours(arguments.program, volume, *sources(arguments), "--size", size, "--samples", 1, *options)
+
+    drawn = draw("--flat", "--raw", raw, "--repeats", 1)
     scene = Vtk(drawn, raw, size, threads)
     scene.draw(shaded=False)
     exact = integral(drawn, scene.samples.reshape(drawn["size"][::-1]), size)
     vtk_error = difference(scene.light()[::EVERY, ::EVERY], exact)
 
     def error(step):
-        ours(program, path, "--flat", "--size", size, "--samples", 1, "--picture", picture, "--repeats", 1, "--step", step)
+        draw("--flat", "--picture", picture, "--repeats", 1, "--step", step)
         return difference(light_of(picture, size)[::EVERY, ::EVERY], exact)
 
     step, own_error = longest_step(error, vtk_error)
-    record = {"volume": path.stem, "size": "x".join(map(str, drawn["size"])), "type": drawn["type"], "mean light": float(exact.mean()),
+    record = {"volume": volume, "size": "x".join(map(str, drawn["size"])), "type": drawn["type"], "mean light": float(exact.mean()),
               "our step, voxels": step, "ours - integral": own_error, "VTK - integral": vtk_error}
-    if max(record["ours - integral"], record["VTK - integral"]) > min(MOST_DIFFERENCE, 0.1 * record["mean light"]):
-        sys.exit(f"{path}: the pictures differ: {record}")
+    light = record["mean light"]
+    if error(STEPS[0]) > min(MOST_DIFFERENCE, 0.1 * light) or max(own_error, vtk_error) > 0.25 * light:
+        sys.exit(f"{volume}: the pictures differ: {record}")
     for name, options in (("flat", ["--flat"]), ("shaded", [])):
         own, theirs = [], []
         scene.draw(shaded=not options)
         for _ in range(arguments.pairs):
-            seconds = ours(program, path, *options, "--size", size, "--samples", 1, "--step", step, "--threads", threads,
-                           "--repeats", 3)["seconds"]
+            seconds = draw(*options, "--step", step, "--threads", threads, "--repeats", 3)["seconds"]
             own.append(min(a + b for a, b in zip(seconds["prepare"], seconds["draw"])))
             theirs.append(min(scene.draw(shaded=not options) for _ in range(3)))
         record |= {f"{name}, s": statistics.median(own), f"VTK {name}, s": statistics.median(theirs),
-                   f"{name}, times faster": statistics.median(b / a for a, b in zip(own, theirs))}
+                   f"{name}, times faster": times_faster(own, theirs)}
     raw.unlink()
     picture.unlink()
     return record
@@ -230,22 +232,17 @@ def compare(program, path, arguments):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("program")
-    parser.add_argument("volumes", type=Path, nargs="+")
+    add_options(parser, VOLUMES, pairs=3)
     parser.add_argument("--size", type=int, default=512)
     parser.add_argument("--threads", type=int, default=2)
-    parser.add_argument("--pairs", type=int, default=5)
-    parser.add_argument("--cache", type=Path, default=Path("build/bench/volumes"))
-    parser.add_argument("--json", type=Path)
     arguments = parser.parse_args()
     under_a_display()
-    arguments.cache.mkdir(parents=True, exist_ok=True)
     records = []
-    for path in arguments.volumes:
-        records.append(compare(os.path.abspath(arguments.program), path, arguments))
+    for volume in chosen(arguments, VOLUMES):
+        records.append(compare(volume, arguments))
         print(records[-1], flush=True)
     if arguments.json:
-        arguments.json.write_text(json.dumps({"threads": arguments.threads, "pictures": records}, indent=1))
+        Path(arguments.json).write_text(json.dumps({"threads": arguments.threads, "pictures": records}, indent=1))
 
 
 if __name__ == "__main__":

@@ -1,10 +1,11 @@
 // bench_render: where does the time of a picture go?
 //
-//   bench_render VOLUME [--surface] [--size N] [--samples N] [--threads N] [--repeats N] [--flat] [--step S] [--raw FILE] [--picture FILE]
+//   bench_render VOLUME [--cache FOLDER] [--data FOLDER] [--surface] [--size N] [--samples N] [--threads N] [--repeats N] [--flat]
+//                [--step S] [--raw FILE] [--picture FILE]
 //
-// A volume as matter with the opacity that its tree proposes, or (--surface) its first object, seen from 30 degrees to the right and 20
-// above. Prints JSON: seconds of every phase and repeat, what was drawn and how. --raw writes the samples, --picture the RGBA bytes.
-// compare_vtk.py runs this beside VTK's ray caster.
+// VOLUME: as in bench_engine. It is drawn as matter with the opacity that its tree proposes, or (--surface) its first object, seen from 30
+// degrees to the right and 20 above. Prints JSON: seconds of every phase and repeat, peak bytes of the first, what was drawn and how. --raw
+// writes the samples, --picture the RGBA bytes. compare_vtk.py runs this beside VTK's ray caster.
 #include <isoatlas/isoatlas.h>
 
 #include <chrono>
@@ -16,12 +17,16 @@
 #include <string>
 #include <string_view>
 
+#include "memory.h"
+#include "volumes.h"
+
 namespace {
 
 using nlohmann::ordered_json;
 
 struct Arguments {
-    std::string file, raw, picture;
+    std::string volume, raw, picture;
+    bench::Sources sources{"build/bench/volumes", ""};
     bool surface = false;
     int repeats = 3;
     double step = 1;
@@ -32,14 +37,18 @@ struct Arguments {
 Arguments parse(int argc, char** argv) {
     if (argc < 2) throw std::runtime_error("usage: bench_render VOLUME [options]");
     Arguments arguments;
-    arguments.file = argv[1];
+    arguments.volume = argv[1];
     for (int i = 2; i < argc; ++i) {
         const std::string word = argv[i];
         const auto next = [&]() -> std::string {
             if (++i == argc) throw std::runtime_error(word + " needs a value");
             return argv[i];
         };
-        if (word == "--surface")
+        if (word == "--cache")
+            arguments.sources.cache = next();
+        else if (word == "--data")
+            arguments.sources.data = next();
+        else if (word == "--surface")
             arguments.surface = true;
         else if (word == "--flat")
             arguments.options.shading = false;
@@ -104,7 +113,7 @@ std::array<double, 2> range_of(const isoatlas::Volume& volume) {
 void measure(Arguments arguments) {
     Phases phases;
     phases.begin("load");
-    const isoatlas::Volume volume = isoatlas::load_volume(arguments.file, {}, {}, arguments.context);
+    const isoatlas::Volume volume = bench::make(arguments.volume, arguments.sources);
     phases.begin("analyse");
     const isoatlas::Analysis analysis = isoatlas::analyse(volume, {}, arguments.context);
     const isoatlas::ObjectTable table = rank_objects(volume, analysis, {.top = 5}, arguments.context);
@@ -126,12 +135,15 @@ void measure(Arguments arguments) {
     const isoatlas::View view = isoatlas::view_from(30, 20);
     const isoatlas::Camera camera = fit_camera(scene, view, arguments.options);
     isoatlas::Image image;
+    const std::int64_t before = bench::reset_peak();
+    std::int64_t peak_bytes = 0;
     for (int i = 0; i < arguments.repeats; ++i) {
         arguments.context.progress = [&](const isoatlas::Progress& progress) {
             if (progress.fraction == 0) phases.begin(progress.phase == "draw" ? "draw" : "prepare");
         };
         image = render_scene(scene, camera, arguments.options, arguments.context);
         phases.end();
+        if (i == 0) peak_bytes = bench::peak() - before;
     }
     write(arguments.picture, image.rgba.data(), image.rgba.size());
     ordered_json tents = ordered_json::array();
@@ -145,6 +157,7 @@ void measure(Arguments arguments) {
     const isoatlas::VolumeInfo& info = volume.info;
     const ordered_json result{{"seconds", phases.seconds()},
                               {"processor_seconds", phases.processor_seconds()},
+                              {"peak_bytes", peak_bytes},
                               {"size", info.extent.size},
                               {"type", name_of(info.type)},
                               {"spacing", info.geometry.spacing},

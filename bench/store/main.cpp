@@ -1,12 +1,12 @@
 // bench_store: what do a store and its queries cost?
 //
-//   bench_store build VOLUME STORE [--cache FOLDER] [--data FOLDER] [--threads N]   VOLUME: as in bench_engine
+//   bench_store build VOLUME STORE [--cache FOLDER] [--data FOLDER] [--threads N] [--repeats N] [--analysis]   VOLUME: as in bench_engine
 //   bench_store surface STORE TAU [--threads N] [--repeats N]         the whole isosurface: warm, again, cold
 //   bench_store steps STORE TAU [--threads N] [--repeats N]           steps of a Navigator by 0.5 % of the range, up from TAU
 //   bench_store object STORE TAU [--threads N] [--repeats N] [--voxels N]   one object of about that many voxels (1000)
 //   bench_store check STORE TAU VOLUME [--cache FOLDER] [--data FOLDER]   is the surface that of the volume, byte for byte?
 //
-// Each prints one JSON document. Seconds are those of every repeat:
+// Each prints one JSON document. --analysis: in turns with an analysis of the volume in memory. Seconds are those of every repeat:
 //   open   opening the store, the file's pages in memory     warm   the query of an open store that holds no bricks
 //   again  the same query once more                          cold   opening and first query, the file's pages dropped before
 //   step   from the isovalue before to this one              fresh  the query at this one of a store that holds no bricks
@@ -27,6 +27,7 @@
 #include <vector>
 
 #include "cold.h"
+#include "memory.h"
 #include "volumes.h"
 
 namespace bench {
@@ -42,6 +43,7 @@ struct Arguments {
     isoatlas::Context context;
     int repeats = 5;
     std::int64_t voxels = 1000;
+    bool analysis = false;
 
     [[nodiscard]] const std::string& word(std::size_t i) const {
         if (i >= words.size()) throw std::runtime_error("too few arguments; the head of main.cpp lists them");
@@ -68,6 +70,8 @@ Arguments parse(int argc, char** argv) {
             arguments.repeats = std::stoi(value());
         else if (word == "--voxels")
             arguments.voxels = std::stoll(value());
+        else if (word == "--analysis")
+            arguments.analysis = true;
         else if (word.starts_with("--"))
             throw std::runtime_error("unknown option " + word);
         else
@@ -130,7 +134,14 @@ ordered_json measure(const Arguments& arguments, const isoatlas::SurfaceOptions&
 
 ordered_json build(const Arguments& arguments) {
     const isoatlas::Volume volume = make(arguments.word(1), arguments.sources);
-    const double seconds = seconds_of([&] { isoatlas::build_atlas(arguments.word(2), volume, {}, arguments.context); });
+    ordered_json seconds = ordered_json::array(), analysis = ordered_json::array();
+    std::int64_t peak_bytes = 0;
+    for (int i = 0; i < arguments.repeats; ++i) {
+        if (arguments.analysis) analysis.push_back(seconds_of([&] { (void)isoatlas::analyse(volume, {}, arguments.context); }));
+        const std::int64_t before = reset_peak();
+        seconds.push_back(seconds_of([&] { isoatlas::build_atlas(arguments.word(2), volume, {}, arguments.context); }));
+        peak_bytes = std::max(peak_bytes, peak() - before);
+    }
     const auto bytes = static_cast<std::int64_t>(std::filesystem::file_size(arguments.word(2)));
     const std::int64_t voxels = volume.info.extent.voxels();
     return {{"volume", arguments.word(1)},
@@ -138,7 +149,8 @@ ordered_json build(const Arguments& arguments) {
             {"type", isoatlas::name_of(volume.info.type)},
             {"voxels", voxels},
             {"seconds", seconds},
-            {"ns_per_voxel", 1e9 * seconds / static_cast<double>(voxels)},
+            {"analysis_seconds", analysis},
+            {"peak_bytes", peak_bytes},
             {"bytes", bytes},
             {"bytes_per_voxel", static_cast<double>(bytes) / static_cast<double>(voxels)},
             {"sample_bytes", isoatlas::size_of(volume.info.type)}};

@@ -54,6 +54,7 @@ std::string data_path(const std::string& name, const Sources& sources) { return 
 }  // namespace
 
 Volume make(const std::string& name, const Sources& sources) {
+    if (std::filesystem::is_regular_file(name)) return isoatlas::load_volume(name);
     const std::size_t dash = name.rfind('-');
     if (dash == std::string::npos) {
         Volume volume = isoatlas::load_volume(data_path(name, sources));

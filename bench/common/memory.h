@@ -1,8 +1,8 @@
-// Peak memory of analyse beyond its input, measured in a process of its own.
+// Peak memory of a call beyond its input, measured in a process that has done nothing but load the volume.
 //
-// The child loads the volume, gives freed pages back, resets the kernel's high-water mark of resident memory (/proc/self/clear_refs) and
-// reads the resident size; after analyse it reads the high-water mark (VmHWM). The difference is what analyse needed at its peak,
-// its result, thread stacks and allocator overhead included.
+// It gives freed pages back, resets the kernel's high-water mark of resident memory (/proc/self/clear_refs) and reads the resident size;
+// after the call it reads the high-water mark (VmHWM). The difference is what the call needed at its peak, its result, thread stacks and
+// allocator overhead included.
 #pragma once
 
 #include <cstdint>

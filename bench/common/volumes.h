@@ -15,7 +15,8 @@ struct Sources {
     std::string data;   ///< folder with NAME/NAME.nrrd; empty: no real data
 };
 
-/// Names: smooth-N, noisy-N (2 % uniform noise), u8-N (256 grey levels), white-N (white noise) for a size N, and data set names.
+/// Names: smooth-N, noisy-N (2 % uniform noise), u8-N (256 grey levels), white-N (white noise) for a size N, data set names, and paths of
+/// files.
 [[nodiscard]] isoatlas::Volume make(const std::string& name, const Sources& sources);
 
 /// The names of the default run: the fields and the data sets that are there.
