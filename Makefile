@@ -42,7 +42,7 @@ lint: ## clang-tidy over src and apps
 	@cmake --preset dev >/dev/null
 	@scripts/lint.py
 
-bench: ## measure: analysis against a sort, surfaces and stores against Flying Edges, pictures against VTK's ray caster; writes build/bench/*.json and docs/performance.md (without ../shared/data: phantoms alone)
+bench: ## measure: analysis against a sort, surfaces and stores against Flying Edges, pictures against VTK's ray caster, pages, growth; writes build/bench/*.json and docs/performance.md (without ../shared/data: phantoms alone); parts: scripts/bench.sh
 	@scripts/bench.sh
 
 memory: build ## does --memory hold? volumes of all kinds, sizes and budgets; writes docs/memory.md

@@ -2,11 +2,13 @@
 """What a benchmark ran on, as its JSON document and the head of its table say it.
 
     machine.py FILE.json...   adds the member "machine" to what a benchmark has just written
+    machine.py --vectors      the widest vectors of this processor that programs use, whatever ISOATLAS_SIMD says
 """
 import datetime
 import json
 import os
 import platform
+import re
 import subprocess
 import sys
 from pathlib import Path
@@ -21,11 +23,26 @@ def of_processor(name):
     return ""
 
 
-def vectors():
+def widest():
     flags = set(of_processor("flags").split())
-    widest = "AVX-512" if WIDE <= flags else "AVX2" if {"avx2", "fma"} <= flags else "no AVX2"
+    return "AVX-512" if WIDE <= flags else "AVX2" if {"avx2", "fma"} <= flags else "no AVX2"
+
+
+def vectors():
     asked = os.environ.get("ISOATLAS_SIMD")
-    return f"{widest}, ISOATLAS_SIMD={asked}" if asked else widest
+    return f"{widest()}, ISOATLAS_SIMD={asked}" if asked else widest()
+
+
+HEAD = re.compile(r"^.*, (?P<widest>AVX-512|AVX2|no AVX2)(, ISOATLAS_SIMD=(?P<asked>\w+))?, \d+ processors, [\d-]+, "
+                  r"commit [0-9a-f]{8,40}\.$", re.M)
+
+
+def kind(head):
+    """The vectors that were used, of the line above a table."""
+    found = HEAD.match(head)
+    if found["asked"] == "avx2" and found["widest"] == "AVX-512":
+        return "AVX2"
+    return "no AVX2" if found["asked"] == "scalar" else found["widest"]
 
 
 def machine():
@@ -40,6 +57,9 @@ def in_words(found):
 
 
 def main():
+    if sys.argv[1:] == ["--vectors"]:
+        print(widest())
+        return
     for name in sys.argv[1:]:
         path = Path(name)
         document = json.loads(path.read_text())

@@ -1,15 +1,19 @@
 #!/usr/bin/env python3
 """Renders the tables of docs/performance.md from what the benchmarks wrote.
 
-    report.py FOLDER [PAGE]   FOLDER holds what was measured: engine.json, extract.json, store.json, render.json, pages.json; PAGE:
-                             docs/performance.md
+    report.py --self-test
+    report.py FOLDER [PAGE]   FOLDER holds what was measured: engine.json, extract.json, store.json, render.json, pages.json and
+                              scale-SECTION.json, those that are there; PAGE: docs/performance.md
+
+A table replaces the one of the same vectors (AVX2, AVX-512); that of the other kind of processor stays. What misses its goal is in bold.
 """
 import json
+import math
 import re
 import sys
 from pathlib import Path
 
-from machine import in_words
+from machine import HEAD, in_words, kind
 
 
 def table(header, rows):
@@ -22,35 +26,40 @@ def thousands(number):
     return f"{number:,}".replace(",", " ")
 
 
+def in_threads(count):
+    return f"{count} thread{'' if int(count) == 1 else 's'}, s"
+
+
 def dims(record):
     return "x".join(str(n) for n in record["size"])
 
 
+def bold(text, misses):
+    return f"**{text}**" if misses else text
+
+
 GOALS = {"smooth-256": 0.15, "noisy-256": 1.0, "white-256": 2.0}
-NOISE = {"noisy-256", "white-256"}
+NOISE = ("noisy", "white")
 BETWEEN = {"seg3d_mr"}  # an MR image: neither CT-like nor noise
 
 
-def interior(record):
-    if record["volume"] in BETWEEN:
-        return f"{record['trilinear_ratio']:.2f}"
-    goal = 1.5 if record["volume"] in NOISE else 1.3
-    return f"{record['trilinear_ratio']:.2f} (at most {goal}: " + ("met)" if record["trilinear_ratio"] <= goal else "**missed**)")
+def interior_misses(record):
+    goal = 1.5 if record["volume"].startswith(NOISE) else 1.3
+    return record["volume"] not in BETWEEN and record["trilinear_ratio"] > goal
 
 
 def engine_table(engine):
+    counts = list(engine["volumes"][0]["seconds_by_threads"])
     rows = []
     for r in engine["volumes"]:
-        goal = GOALS.get(r["volume"])
-        verdict = "" if goal is None else f"{goal} " + ("met" if r["ratio"] <= goal else "**missed**")
-        memory = "met" if r["peak_over_allowed"] <= 1 else "**missed**"
-        low, high = r["ratio_range"]
-        rows.append([r["volume"], dims(r), r["type"], thousands(r["critical_elements"]), f"{r['sort_seconds']:.3f}", f"{r['seconds']:.3f}",
-                     f"{r['seconds_one_thread']:.3f}", f"{r['ratio']:.3f} ({low:.3f} to {high:.3f})", verdict,
-                     interior(r), thousands(r["trilinear_elements"]),
-                     f"{r['peak_bytes_per_voxel']:.1f}", f"{r['peak_over_allowed']:.2f} {memory}"])
-    header = ["volume", "size", "type", "critical elements", "sort, s", f"{engine['threads']} threads, s", "1 thread, s",
-              "ratio to the sort (range)", "goal", "trilinear / faces", "elements with body points", "peak bytes a voxel", "peak / allowed"]
+        goal, (low, high) = GOALS.get(r["volume"], ""), r["ratio_range"]
+        rows.append([r["volume"], dims(r), r["type"], thousands(r["critical_elements"]), f"{r['sort_seconds']:.3f}",
+                     *(f"{r['seconds_by_threads'][n]:.3f}" for n in counts),
+                     bold(f"{r['ratio']:.3f}", goal and r["ratio"] > goal) + f" ({low:.3f} to {high:.3f})", goal,
+                     bold(f"{r['trilinear_ratio']:.2f}", interior_misses(r)), thousands(r["trilinear_elements"]),
+                     f"{r['peak_bytes_per_voxel']:.1f}", bold(f"{r['peak_over_allowed']:.2f}", r["peak_over_allowed"] > 1)])
+    header = ["volume", "size", "type", "critical elements", "sort, s", *(in_threads(n) for n in counts), "ratio to the sort (range)", "goal",
+              "trilinear / faces", "elements with body points", "peak bytes a voxel", "peak / allowed"]
     return table(header, rows)
 
 
@@ -62,19 +71,44 @@ def phases_table(engine):
     return table(["seconds"] + names, rows)
 
 
-def growth_table(engine):
-    rows, before = [], None
-    for r in engine.get("growth", []):
-        same_field = before is not None and before["volume"].rsplit("-", 1)[0] == r["volume"].rsplit("-", 1)[0]
-        growth = f"{r['seconds'] / before['seconds']:.1f}" if same_field else ""
-        elements = r["critical_elements"]
-        per_element = f"{1e9 * r['seconds'] / elements:.0f}" if 10 * elements > r["voxels"] else ""  # where elements are the cost
-        rows.append([r["volume"], dims(r), thousands(elements), f"{r['seconds']:.3f}", growth,
-                     f"{1e9 * r['seconds'] / r['voxels']:.1f}", per_element, f"{r['peak_bytes_per_voxel']:.1f}", f"{r['peak_over_allowed']:.2f}"])
-        before = r
-    header = ["volume", "size", "critical elements", f"{engine['threads']} threads, s", "times the size before", "ns a voxel", "ns an element",
-              "peak bytes a voxel", "peak / allowed"]
-    return table(header, rows) if rows else None
+def slope(voxels, seconds):
+    """Of log(seconds) against log(voxels), by least squares; None of fewer than two sizes."""
+    x, y = [math.log(n) for n in voxels], [math.log(s) for s in seconds]
+    middle = sum(x) / len(x)
+    spread = sum((a - middle)**2 for a in x)
+    return sum((a - middle) * b for a, b in zip(x, y)) / spread if spread else None
+
+
+STEEPEST = math.log(10) / math.log(8)  # eight times the voxels in ten times the time
+
+
+def scale_table(document):
+    """Rows of records, and below those of a field its slopes."""
+    records = document["records"]
+    columns = [(what, n) for what, by_threads in records[0]["seconds"].items() for n in by_threads]
+    header = ["volume", *(f"{what} {in_threads(n)}".strip() for what, n in columns)]
+    header += [f"{what} ns a voxel".strip() for what in records[0]["seconds"]]
+    header += [*(f"{what}, bytes a voxel" for what in records[0]["bytes"]), *records[0]["more"]]
+    rows = []
+    for field in dict.fromkeys(r["field"] for r in records):
+        own = [r for r in records if r["field"] == field]
+        for r in own:
+            rows.append([f"{r['field']}-{r['size']}", *(f"{r['seconds'][what][n]:.4g}" for what, n in columns),
+                         *(f"{1e9 * by_threads['2'] / r['voxels']:.4g}" for by_threads in r["seconds"].values()),
+                         *(f"{size / r['voxels']:.4g}" for size in r["bytes"].values()),
+                         *(f"{value:.4g}" if isinstance(value, float) else thousands(value) for value in r["more"].values())])
+        slopes = [slope([r["voxels"] for r in own], [r["seconds"][what][n] for r in own]) for what, n in columns]
+        rows.append([f"{field}: slope", *("" if s is None else bold(f"{s:.2f}", s > STEEPEST) for s in slopes)])
+        rows[-1] += [""] * (len(header) - len(rows[-1]))
+    return table(header, rows)
+
+
+def build_misses(record, column):
+    return column == "build / analysis" and record[column] > 2
+
+
+def extract_misses(record, column):
+    return column == "times faster" and record[column] < 1
 
 
 def store_misses(record, column):
@@ -86,7 +120,7 @@ def store_misses(record, column):
 
 
 def render_misses(record, column):
-    return column.endswith("times faster") and record[column] < 1
+    return column.endswith("times faster") and record[column] < 1 or column in ("flat, s", "shaded, s") and record[column] > 1
 
 
 def page_misses(record, column):
@@ -99,7 +133,7 @@ def cell(record, key, misses):
     number = record.get(key, "")
     if not isinstance(number, float):
         return number
-    return f"**{number:.4g}**" if misses(record, key) else f"{number:.4g}"
+    return bold(f"{number:.4g}", misses(record, key))
 
 
 def generic_table(records, misses=lambda record, column: False):
@@ -109,37 +143,65 @@ def generic_table(records, misses=lambda record, column: False):
     return table([name.replace("_", " ") for name in header], rows)
 
 
+ORDER = ["no AVX2", "AVX2", "AVX-512"]
+
+
+def parts_of(text):
+    """{vectors: head and table}: what is between the marks, one table for each kind of processor. What has no head is old: dropped."""
+    heads = list(HEAD.finditer(text))
+    ends = [head.start() for head in heads[1:]] + [len(text)]
+    return {kind(head[0]): text[head.start():end].strip() for head, end in zip(heads, ends)}
+
+
 def replace(page, mark, text):
-    pattern = re.compile(rf"(<!-- {mark}:begin -->\n).*?(<!-- {mark}:end -->)", re.S)
-    if not pattern.search(page):
+    """The table between these marks, of the same kind of processor, or a new one."""
+    pattern = re.compile(rf"(<!-- {mark}:begin -->\n)(.*?)(<!-- {mark}:end -->)", re.S)
+    found = pattern.search(page)
+    if not found:
         sys.exit(f"report: the page has no marks for '{mark}'")
-    return page if text is None else pattern.sub(lambda match: match.group(1) + text + "\n" + match.group(2), page)
+    parts = parts_of(found[2]) | parts_of(text)
+    joined = "\n\n".join(parts[name] for name in sorted(parts, key=ORDER.index))
+    return page[:found.start()] + found[1] + joined + "\n" + found[3] + page[found.end():]
 
 
 TABLES = [
     ("engine", "engine", engine_table),
     ("phases", "engine", phases_table),
-    ("growth", "engine", growth_table),  # measured with --growth only
-    ("extract", "extract", lambda document: generic_table(document["results"])),
-    ("store-builds", "store", lambda document: generic_table(document["builds"])),
+    ("extract", "extract", lambda document: generic_table(document["results"], extract_misses)),
+    ("store-builds", "store", lambda document: generic_table(document["builds"], build_misses)),
     ("store-surfaces", "store", lambda document: generic_table(document["surfaces"], store_misses)),
     ("store-objects", "store", lambda document: generic_table(document["objects"])),
     ("render", "render", lambda document: generic_table(document["pictures"], render_misses)),
     ("pages", "pages", lambda document: generic_table(document["pages"], page_misses)),
-]
+] + [(f"scale-{section}", f"scale-{section}", scale_table) for section in ("analysis", "extract", "stores", "render", "pages")]
+
+
+def self_test():
+    avx2 = "A, AVX2, 2 processors, 2026-01-01, commit 01234567.\n\n| a |"
+    wide = "B, AVX-512, 4 processors, 2026-01-02, commit 89abcdef.\n\n| b |"
+    narrowed = "C, AVX-512, ISOATLAS_SIMD=avx2, 4 processors, 2026-01-03, commit 89abcdef.\n\n| c |"
+    page = "x\n<!-- t:begin -->\nZ, 3 pairs.\n\n| old |\n<!-- t:end -->\ny\n"
+    for text, parts in ((wide, [wide]), (avx2, [avx2, wide]), (narrowed, [narrowed, wide])):
+        page = replace(page, "t", text)
+        assert page == "x\n<!-- t:begin -->\n" + "\n\n".join(parts) + "\n<!-- t:end -->\ny\n", page
+    assert abs(slope([8, 64, 512], [2, 4, 8]) - 1 / 3) < 1e-9 and slope([8], [2]) is None
+    records = [{"field": "smooth", "size": n, "voxels": n**3, "seconds": {"": {"1": n**3, "2": n**4}}, "bytes": {}, "more": {}} for n in (2, 4)]
+    assert scale_table({"records": records}).endswith("| smooth: slope | 1.00 | **1.33** |  |")
 
 
 def main():
+    if sys.argv[1:] == ["--self-test"]:
+        self_test()
+        return
     if len(sys.argv) not in (2, 3):
         sys.exit(__doc__)
     folder = Path(sys.argv[1])
     path = Path(sys.argv[2] if len(sys.argv) == 3 else "docs/performance.md")
     page = path.read_text()
-    documents = {name: json.loads((folder / f"{name}.json").read_text()) for name in ("engine", "extract", "store", "render", "pages")
-                 if (folder / f"{name}.json").exists()}
     for mark, name, make in TABLES:
-        text = make(documents[name]) if name in documents else None
-        page = replace(page, mark, text and in_words(documents[name]["machine"]) + "\n\n" + text)
+        if (folder / f"{name}.json").exists():
+            document = json.loads((folder / f"{name}.json").read_text())
+            page = replace(page, mark, in_words(document["machine"]) + "\n\n" + make(document))
     path.write_text(page)
     print(f"report: {path} is up to date")
 

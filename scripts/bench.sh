@@ -1,25 +1,69 @@
 #!/usr/bin/env bash
-# Measures what docs/performance.md reports and renders its tables. Takes some minutes; leave the machine alone meanwhile.
+# Measures what docs/performance.md reports and renders its tables. Takes three quarters of an hour on two processors; leave the machine
+# alone meanwhile.
+#
+#   scripts/bench.sh [--quick] [SECTION...]     sections: engine extract store render pages scale; all of them by default
+#
+# --quick: 64^3 voxels, a run or two each, into build/bench/quick and a copy of the page there: do the scripts work? On a processor with
+# AVX-512 everything is measured twice, with its own vectors and with ISOATLAS_SIMD=avx2; once, where ISOATLAS_SIMD is set, be it empty.
+# ISOATLAS_BENCH_PROGRAMS: a folder with the programs; nothing is built then.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
-scripts/bootstrap.sh bench
-scripts/build.sh bench
-out=build/bench
-data=../shared/data
-options=(--cache "$out/volumes" --json "$out/engine.json" --growth)
-real=()
-if [[ -d $data ]]; then real=(--data "$data"); fi
-"$out/bin/bench_engine" "${options[@]}" "${real[@]}"
-/usr/bin/python3 bench/extract/compare_vtk.py "$out/bin/bench_extract" --cache "$out/volumes" --json "$out/extract.json"
-/usr/bin/python3 bench/store/compare_vtk.py "$out/bin/bench_store" --cache "$out/volumes" "${real[@]}" --json "$out/store.json"
-measured=(engine extract store)
-if [[ -d $data ]]; then
-    /usr/bin/python3 bench/render/compare_vtk.py "$out/bin/bench_render" "$data"/{bonsai/bonsai,engine/engine,headsq/headsq,heptane/heptane}.nrrd \
-        --cache "$out/volumes" --json "$out/render.json"
-    /usr/bin/python3 bench/page/first_pictures.py "$out/bin/isoatlas" "$data"/{bonsai/bonsai,headsq/headsq,engine/engine,tooth/tooth}.nrrd \
-        --json "$out/pages.json"
-    measured+=(render pages)
+quick=
+if [[ ${1:-} == --quick ]]; then
+    quick=yes
+    shift
 fi
-for name in "${measured[@]}"; do /usr/bin/python3 bench/machine.py "$out/$name.json"; done
-/usr/bin/python3 bench/report.py "$out"
+sections=("$@")
+if [[ $# -eq 0 ]]; then sections=(engine extract store render pages scale); fi
+programs=${ISOATLAS_BENCH_PROGRAMS:-}
+if [[ -z $programs ]]; then
+    scripts/bootstrap.sh bench
+    scripts/build.sh bench
+    programs=build/bench/bin
+fi
+out=build/bench
+page=docs/performance.md
+fields=() scale=() engine=() pairs=() builds=()
+if [[ -n $quick ]]; then
+    out=build/bench/quick
+    engine=(smooth-64 noisy-64 white-64) scale=(--sizes 32 64) pairs=(--pairs 1) builds=(--builds 1)
+    fields=(--volumes "${engine[@]}")
+fi
+mkdir -p "$out/volumes"
+if [[ -n $quick ]]; then cp "$page" "$out/performance.md" && page=$out/performance.md; fi
+common=(--cache "$out/volumes")
+if [[ -d ../shared/data ]]; then common+=(--data ../shared/data); fi
+
+python() { /usr/bin/python3 -B "$@"; }
+
+compare() { # a script, its program, further options; writes $to/$section.json
+    python "bench/$1" "$programs/$2" "${fields[@]}" "${common[@]}" "${pairs[@]}" "${@:3}" --json "$to/$section.json"
+}
+
+measure() { # into the folder $1
+    local to=$1 section start
+    mkdir -p "$to"
+    for section in "${sections[@]}"; do
+        start=$SECONDS
+        case $section in
+            engine) "$programs/bench_engine" "${engine[@]}" "${common[@]}" "${pairs[@]}" --json "$to/engine.json" ;;
+            extract) compare extract/compare_vtk.py bench_extract ;;
+            store) compare store/compare_vtk.py bench_store "${builds[@]}" ;;
+            render) compare render/compare_vtk.py bench_render ;;
+            pages) compare page/first_pictures.py isoatlas ;;
+            scale) python bench/scale.py "$programs" "${scale[@]}" --cache "$out/volumes" --out "$to" ;;
+            *) echo "bench: no section '$section'; sections: engine extract store render pages scale" >&2 && exit 2 ;;
+        esac
+        if [[ $section == scale ]]; then python bench/machine.py "$to"/scale-*.json; else python bench/machine.py "$to/$section.json"; fi
+        python bench/report.py "$to" "$page"
+        echo "bench: $section measured in $((SECONDS - start)) s"
+    done
+}
+
+measure "$out"
+if [[ -z ${ISOATLAS_SIMD+set} && $(python bench/machine.py --vectors) == AVX-512 ]]; then
+    export ISOATLAS_SIMD=avx2
+    measure "$out/avx2"
+fi
