@@ -12,22 +12,18 @@ ROOT = pathlib.Path(__file__).resolve().parent.parent
 ENGINE = "src/field src/critical src/tree src/zones src/analysis src/persistence".split()
 SURFACES = "src/field src/levelset src/mesh".split()
 STORES = SURFACES + "src/codec src/bricks src/census src/store src/atlas".split()
+PICTURES, PAGES = ["src/render"], "src/catalogue src/page src/preview src/render".split()
 MEASURED = {
-    "engine": ENGINE, "phases": ENGINE, "growth": ENGINE, "extract": SURFACES,
-    "store-builds": STORES + ENGINE, "store-surfaces": STORES, "store-objects": STORES,
-    "render": ["src/render"], "pages": "src/catalogue src/page src/preview src/render".split(),
+    "engine": ENGINE, "phases": ENGINE, "scale-analysis": ENGINE, "extract": SURFACES, "scale-extract": SURFACES,
+    "store-builds": STORES + ENGINE, "store-surfaces": STORES, "store-objects": STORES, "scale-stores": STORES + ENGINE,
+    "render": PICTURES, "scale-render": PICTURES, "pages": PAGES, "scale-pages": PAGES,
 }
 TABLE = re.compile(r"<!-- ([\w-]+):begin -->\n(.*?)<!-- \1:end -->", re.S)
 
 
 def commits_of(page):
-    """{mark: commit or None}"""
-    found = {}
-    for mark, text in TABLE.findall(page):
-        if mark in MEASURED:
-            commit = re.search(r"\bcommit ([0-9a-f]{8,40})\b", text)
-            found[mark] = commit and commit[1]
-    return found
+    """{mark: the commits of its tables, one for each kind of processor}"""
+    return {mark: re.findall(r"^\S.*, commit ([0-9a-f]{8,40})\.$", text, re.M) for mark, text in TABLE.findall(page) if mark in MEASURED}
 
 
 def newer(commit, paths):
@@ -37,21 +33,25 @@ def newer(commit, paths):
 
 
 def problems(found, count):
-    said = [f"the table {mark} says no commit" for mark, commit in found.items() if commit is None]
-    for mark, commit in found.items():
-        if commit and (number := count(commit, MEASURED[mark])) is not None and number > MOST:
-            said.append(f"the table {mark} is of {commit}: {number} commits since then touch what it measures (at most {MOST})")
+    said = [f"the table {mark} says no commit" for mark, commits in found.items() if not commits]
+    for mark, commits in found.items():
+        for commit in commits:
+            if (number := count(commit, MEASURED[mark])) is not None and number > MOST:
+                said.append(f"the table {mark} is of {commit}: {number} commits since then touch what it measures (at most {MOST})")
     return said
 
 
 def self_test():
-    page = ("<!-- engine:begin -->\nA, commit 01234567.\n\n| x |\n<!-- engine:end -->\n<!-- render:begin -->\n| x |\n<!-- render:end -->\n"
+    page = ("<!-- engine:begin -->\nA, commit 01234567.\n\n| x |\n\nB, commit 89abcdef.\n\n| y |\n<!-- engine:end -->\n"
+            "<!-- render:begin -->\n| x |\n<!-- render:end -->\n<!-- pages:begin -->\n<!-- pages:end -->\n"
             "<!-- other:begin -->\n<!-- other:end -->\n")
     found = commits_of(page)
-    assert found == {"engine": "01234567", "render": None}, found
-    assert problems(found, lambda *_: 20) == ["the table render says no commit"]
-    assert len(problems(found, lambda *_: 21)) == 2
-    assert len(problems({"engine": "01234567"}, lambda *_: None)) == 0
+    assert found == {"engine": ["01234567", "89abcdef"], "render": [], "pages": []}, found
+    without = ["the table render says no commit", "the table pages says no commit"]
+    assert problems(found, lambda *_: 20) == without
+    assert len(problems(found, lambda *_: 21)) == 4
+    assert problems(found, lambda commit, _: 21 if commit == "89abcdef" else 0)[2].startswith("the table engine is of 89abcdef")
+    assert problems(found, lambda *_: None) == without
 
 
 def main():
@@ -62,7 +62,7 @@ def main():
     missing = sorted(set(MEASURED) - set(found))
     if missing:
         sys.exit(f"docs/performance.md has no table {', '.join(missing)}")
-    if any(commit and newer(commit, []) is None for commit in found.values()):
+    if any(newer(commit, []) is None for commits in found.values() for commit in commits):
         print("SKIPPED: this clone does not have the commits of the tables")
     if said := problems(found, newer):
         sys.exit("\n".join(said) + "\nNext: make bench, on a quiet machine.")
