@@ -195,19 +195,20 @@ def longest_step(draw, most):
 
 def compare(volume, arguments):
     size, threads, cache = arguments.size, arguments.threads, Path(arguments.cache)
-    raw, picture = cache / "render.raw", cache / "render.rgba"
+    raw, picture, first = cache / "render.raw", cache / "render.rgba", cache / "render.json"
 
     def draw(*options):
         return ours(arguments.program, volume, *sources(arguments), "--size", size, "--samples", 1, *options)
 
     drawn = draw("--flat", "--raw", raw, "--repeats", 1)
+    first.write_text(json.dumps(drawn))
     scene = Vtk(drawn, raw, size, threads)
     scene.draw(shaded=False)
     exact = integral(drawn, scene.samples.reshape(drawn["size"][::-1]), size)
     vtk_error = difference(scene.light()[::EVERY, ::EVERY], exact)
 
     def error(step):
-        draw("--flat", "--picture", picture, "--repeats", 1, "--step", step)
+        draw("--flat", "--picture", picture, "--repeats", 1, "--step", step, "--like", first)
         return difference(light_of(picture, size)[::EVERY, ::EVERY], exact)
 
     step, own_error = longest_step(error, vtk_error)
@@ -220,13 +221,13 @@ def compare(volume, arguments):
         own, theirs = [], []
         scene.draw(shaded=not options)
         for _ in range(arguments.pairs):
-            seconds = draw(*options, "--step", step, "--threads", threads, "--repeats", 3)["seconds"]
+            seconds = draw(*options, "--step", step, "--threads", threads, "--repeats", 3, "--like", first)["seconds"]
             own.append(min(a + b for a, b in zip(seconds["prepare"], seconds["draw"])))
             theirs.append(min(scene.draw(shaded=not options) for _ in range(3)))
         record |= {f"{name}, s": statistics.median(own), f"VTK {name}, s": statistics.median(theirs),
                    f"{name}, times faster": times_faster(own, theirs)}
-    raw.unlink()
-    picture.unlink()
+    for file in (raw, picture, first):
+        file.unlink()
     return record
 
 

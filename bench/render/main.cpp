@@ -1,11 +1,12 @@
 // bench_render: where does the time of a picture go?
 //
 //   bench_render VOLUME [--cache FOLDER] [--data FOLDER] [--surface] [--size N] [--samples N] [--threads N] [--repeats N] [--flat]
-//                [--step S] [--raw FILE] [--picture FILE]
+//                [--step S] [--raw FILE] [--picture FILE] [--like FILE]
 //
 // VOLUME: as in bench_engine. It is drawn as matter with the opacity that its tree proposes, or (--surface) its first object, seen from 30
 // degrees to the right and 20 above. Prints JSON: seconds of every phase and repeat, peak bytes of the first, what was drawn and how. --raw
-// writes the samples, --picture the RGBA bytes. compare_vtk.py runs this beside VTK's ray caster.
+// writes the samples, --picture the RGBA bytes. --like: with the opacity of an earlier run, whose JSON this is; nothing is analysed.
+// compare_vtk.py runs this beside VTK's ray caster.
 #include <isoatlas/isoatlas.h>
 
 #include <chrono>
@@ -25,7 +26,7 @@ namespace {
 using nlohmann::ordered_json;
 
 struct Arguments {
-    std::string volume, raw, picture;
+    std::string volume, raw, picture, like;
     bench::Sources sources{"build/bench/volumes", ""};
     bool surface = false;
     int repeats = 3;
@@ -66,6 +67,8 @@ Arguments parse(int argc, char** argv) {
             arguments.raw = next();
         else if (word == "--picture")
             arguments.picture = next();
+        else if (word == "--like")
+            arguments.like = next();
         else
             throw std::runtime_error("unknown option " + word);
     }
@@ -110,28 +113,68 @@ std::array<double, 2> range_of(const isoatlas::Volume& volume) {
     });
 }
 
-void measure(Arguments arguments) {
-    Phases phases;
-    phases.begin("load");
-    const isoatlas::Volume volume = bench::make(arguments.volume, arguments.sources);
+ordered_json json_of(const std::vector<isoatlas::OpacityTent>& tents) {
+    ordered_json bumps = ordered_json::array();
+    for (const isoatlas::OpacityTent& bump : tents) {
+        bumps.push_back({{"low", bump.low},
+                         {"high", bump.high},
+                         {"ramp", bump.ramp},
+                         {"density", bump.density},
+                         {"colour", {bump.colour.red, bump.colour.green, bump.colour.blue}}});
+    }
+    return bumps;
+}
+
+std::vector<isoatlas::OpacityTent> tents_of(const std::string& path) {
+    std::ifstream file(path);
+    if (!file) throw std::runtime_error("cannot read " + path);
+    std::vector<isoatlas::OpacityTent> tents;
+    const ordered_json document = ordered_json::parse(file);
+    for (const ordered_json& bump : document.at("bumps")) {
+        const std::vector<double> colour = bump.at("colour");
+        tents.push_back({.low = bump.at("low"),
+                         .high = bump.at("high"),
+                         .colour = {colour.at(0), colour.at(1), colour.at(2)},
+                         .density = bump.at("density"),
+                         .ramp = bump.at("ramp")});
+    }
+    return tents;
+}
+
+isoatlas::ObjectTable table_of(const isoatlas::Volume& volume, const Arguments& arguments, Phases& phases) {
     phases.begin("analyse");
     const isoatlas::Analysis analysis = isoatlas::analyse(volume, {}, arguments.context);
-    const isoatlas::ObjectTable table = rank_objects(volume, analysis, {.top = 5}, arguments.context);
+    isoatlas::ObjectTable table = rank_objects(volume, analysis, {.top = 5}, arguments.context);
     phases.end();
-    write(arguments.raw, volume.bytes.data(), volume.bytes.size());
+    return table;
+}
+
+isoatlas::Scene scene_of(const isoatlas::Volume& volume, const Arguments& arguments, Phases& phases) {
     isoatlas::Scene scene;
     if (arguments.surface) {
+        const isoatlas::ObjectTable table = table_of(volume, arguments, phases);
         phases.begin("extract");
         if (table.entries.empty()) throw std::runtime_error("no object");
         isoatlas::Surface surface = isoatlas::extract(volume, table.entries[0].best_tau,
                                                       {.surface = {.objects = {}, .contours = {}, .ids = false}}, arguments.context);
         scene.objects.push_back({.surface = std::move(surface), .colour = isoatlas::palette(0)});
         phases.end();
-    } else {
-        const std::array<double, 2> range = range_of(volume);
-        scene.volume = {
-            .volume = &volume, .tents = propose_transfer(table, volume.info, range), .range = range, .sample_distance = arguments.step};
+        return scene;
     }
+    const std::array<double, 2> range = range_of(volume);
+    std::vector<isoatlas::OpacityTent> tents =
+        arguments.like.empty() ? propose_transfer(table_of(volume, arguments, phases), volume.info, range) : tents_of(arguments.like);
+    scene.volume = {.volume = &volume, .tents = std::move(tents), .range = range, .sample_distance = arguments.step};
+    return scene;
+}
+
+void measure(Arguments arguments) {
+    Phases phases;
+    phases.begin("load");
+    const isoatlas::Volume volume = bench::make(arguments.volume, arguments.sources);
+    phases.end();
+    write(arguments.raw, volume.bytes.data(), volume.bytes.size());
+    const isoatlas::Scene scene = scene_of(volume, arguments, phases);
     const isoatlas::View view = isoatlas::view_from(30, 20);
     const isoatlas::Camera camera = fit_camera(scene, view, arguments.options);
     isoatlas::Image image;
@@ -146,14 +189,6 @@ void measure(Arguments arguments) {
         if (i == 0) peak_bytes = bench::peak() - before;
     }
     write(arguments.picture, image.rgba.data(), image.rgba.size());
-    ordered_json tents = ordered_json::array();
-    for (const isoatlas::OpacityTent& bump : scene.volume.tents) {
-        tents.push_back({{"low", bump.low},
-                         {"high", bump.high},
-                         {"ramp", bump.ramp},
-                         {"density", bump.density},
-                         {"colour", {bump.colour.red, bump.colour.green, bump.colour.blue}}});
-    }
     const isoatlas::VolumeInfo& info = volume.info;
     const ordered_json result{{"seconds", phases.seconds()},
                               {"processor_seconds", phases.processor_seconds()},
@@ -164,7 +199,7 @@ void measure(Arguments arguments) {
                               {"origin", info.geometry.origin},
                               {"direction", info.geometry.direction},
                               {"triangles", arguments.surface ? scene.objects[0].surface.triangles.size() : 0},
-                              {"bumps", tents},
+                              {"bumps", json_of(scene.volume.tents)},
                               {"camera", {{"target", camera.target}, {"toward", view.toward}, {"up", view.up}, {"height", camera.height}}}};
     std::puts(result.dump().c_str());
 }
