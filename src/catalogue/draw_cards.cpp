@@ -12,9 +12,51 @@
 
 namespace isoatlas {
 
+namespace {
+
+/// Work on single cards, two at a time.
+class Cards {
+public:
+    Cards(const char* phase, std::size_t count, const Context& context)
+        : phase_(phase), count_(count), context_(context), here_(context), own_(context) {
+        constexpr int kAtOnce = 2;
+        const int threads = thread_count(context.threads);
+        at_once_ = current_environment().memory != nullptr ? 1 : std::min(threads, kAtOnce);
+        own_.progress = nullptr;
+        own_.threads = std::max(1, threads / at_once_);
+        own_.cancelled = [this] {
+            if (context_.cancelled && here_.is_caller() && context_.cancelled()) is_cancelled_ = true;
+            return is_cancelled_.load();
+        };
+    }
+
+    /// Calls work(i, context) for i in [begin, end).
+    void each(std::size_t begin, std::size_t end, const std::function<void(std::size_t, const Context&)>& work) {
+        for_each_block(at_once_, static_cast<std::int64_t>(end - begin), [&](std::int64_t block) {
+            stop_if_cancelled(own_);
+            if (here_.is_caller()) report(context_, only_phase(phase_), static_cast<double>(done_) / static_cast<double>(count_));
+            work(begin + static_cast<std::size_t>(block), own_);
+            ++done_;
+        });
+    }
+
+private:
+    const char* phase_;
+    std::size_t count_;
+    const Context& context_;
+    const CallerLooks here_;
+    int at_once_ = 1;
+    std::atomic<bool> is_cancelled_ = false;
+    std::atomic<std::size_t> done_ = 0;
+    Context own_;
+};
+
+}  // namespace
+
 CardPicture draw_card(Surface surface, const Colour& colour, const PageOptions& options, const Context& context) {
     constexpr std::int64_t kTrianglesOfPixel = 6;
-    CardPicture card{.picture = {}, .coarse = coarse_for_page(surface, context)};
+    CardPicture card;
+    if (surface.triangles.size() <= kMaxPageTriangles) card.coarse = coarse_for_page(surface, context);
     const auto most = static_cast<std::size_t>(kTrianglesOfPixel * options.picture_size * options.picture_size);
     card.picture = draw_turntable(coarse_surface(std::move(surface), most), colour, options, context);
     return card;
@@ -22,29 +64,27 @@ CardPicture draw_card(Surface surface, const Colour& colour, const PageOptions& 
 
 void draw_cards(std::size_t cards, const std::function<void(std::size_t, const Context&)>& draw,
                 const std::function<void(std::size_t)>& drawn, const Context& context) {
-    constexpr int kAtOnce = 2;
-    const int threads = thread_count(context.threads);
-    const int at_once = current_environment().memory != nullptr ? 1 : std::min(threads, kAtOnce);
-    const CallerLooks here(context);
-    std::atomic<bool> is_cancelled = false;
-    std::atomic<std::size_t> done = 0;
-    Context own = context;
-    own.progress = nullptr;
-    own.threads = std::max(1, threads / at_once);
-    own.cancelled = [&] {
-        if (context.cancelled && here.is_caller() && context.cancelled()) is_cancelled = true;
-        return is_cancelled.load();
-    };
+    Cards all("draw", cards, context);
     for (std::size_t begin = 0, end = kFirstCards; begin < cards; begin = end, end *= 2) {
         const std::size_t last = std::min(end, cards);
-        for_each_block(at_once, static_cast<std::int64_t>(last - begin), [&](std::int64_t block) {
-            stop_if_cancelled(own);
-            if (here.is_caller()) report(context, only_phase("draw"), static_cast<double>(done) / static_cast<double>(cards));
-            draw(begin + static_cast<std::size_t>(block), own);
-            ++done;
-        });
+        all.each(begin, last, draw);
         if (last < cards) drawn(last);
     }
+}
+
+std::vector<CoarseSurface> coarse_cards(std::vector<std::optional<CoarseSurface>> coarse,
+                                        const std::function<Surface(std::size_t, const Context&)>& surface_of, const Context& context) {
+    std::vector<std::size_t> missing;
+    for (std::size_t i = 0; i < coarse.size(); ++i) {
+        if (!coarse[i]) missing.push_back(i);
+    }
+    Cards all("reduce surfaces", missing.size(), context);
+    all.each(0, missing.size(), [&](std::size_t place, const Context& own) {
+        coarse[missing[place]] = coarse_for_page(surface_of(missing[place], own), own);
+    });
+    std::vector<CoarseSurface> surfaces;
+    for (std::optional<CoarseSurface>& surface : coarse) surfaces.push_back(std::move(*surface));
+    return surfaces;
 }
 
 }  // namespace isoatlas

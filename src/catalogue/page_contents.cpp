@@ -248,16 +248,20 @@ std::vector<CoarseSurface> draw_pictures(PageContents& contents, const StoreSide
         draw_slices(contents, sides, options, context);
         return {};
     }
-    std::vector<CoarseSurface> surfaces(contents.entries.size());
+    const auto surface = [&](std::size_t i, const Context& own) {
+        const PageEntry& entry = contents.entries[i];
+        const PageBranch& branch = contents.branches[entry.branch];
+        return surface_of(sides.of(branch.polarity), branch.is_cavity, entry, own);
+    };
+    std::vector<std::optional<CoarseSurface>> coarse(contents.entries.size());
     const auto draw = [&](std::size_t i, const Context& own) {
         PageEntry& entry = contents.entries[i];
-        const PageBranch& branch = contents.branches[entry.branch];
-        CardPicture card = draw_card(surface_of(sides.of(branch.polarity), branch.is_cavity, entry, own), entry.colour, options, own);
+        CardPicture card = draw_card(surface(i, own), entry.colour, options, own);
         entry.picture = std::move(card.picture);
-        surfaces[i] = std::move(card.coarse);
+        coarse[i] = std::move(card.coarse);
     };
-    draw_cards(surfaces.size(), draw, drawn, context);
-    return surfaces;
+    draw_cards(coarse.size(), draw, drawn, context);
+    return coarse_cards(std::move(coarse), surface, context);
 }
 
 }  // namespace isoatlas

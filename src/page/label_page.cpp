@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <functional>
+#include <optional>
 #include <vector>
 
 #include "catalogue/draw_cards.h"
@@ -40,21 +41,24 @@ Volume mask_of(const Volume& volume, std::int64_t label) {
 std::vector<CoarseSurface> draw_labels(const Volume& volume, Interpolant interpolant, std::span<LabelCard> cards,
                                        const PageOptions& options, const std::function<void(std::size_t)>& drawn, const Context& context) {
     const bool is_flat = volume.info.extent.rank == 2;
-    std::vector<CoarseSurface> surfaces(is_flat ? 0 : cards.size());
+    std::vector<std::optional<CoarseSurface>> coarse(is_flat ? 0 : cards.size());
+    const auto surface = [&](std::size_t i, const Context& own) {
+        ExtractOptions extracted{.interpolant = interpolant};
+        extracted.surface.ids = false;
+        return extract_label(volume, cards[i].region.label, extracted, own);
+    };
     const auto draw = [&](std::size_t i, const Context& own) {
         LabelCard& card = cards[i];
         if (is_flat) {
             card.picture = draw_still(mask_of(volume, card.region.label), 0.5, card.colour, options, own);
             return;
         }
-        ExtractOptions extracted{.interpolant = interpolant};
-        extracted.surface.ids = false;
-        CardPicture now = draw_card(extract_label(volume, card.region.label, extracted, own), card.colour, options, own);
+        CardPicture now = draw_card(surface(i, own), card.colour, options, own);
         card.picture = std::move(now.picture);
-        surfaces[i] = std::move(now.coarse);
+        coarse[i] = std::move(now.coarse);
     };
     draw_cards(cards.size(), draw, drawn, context);
-    return surfaces;
+    return coarse_cards(std::move(coarse), surface, context);
 }
 
 /// Largest first.

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <compare>
-#include <queue>
 #include <tuple>
 
 #include "base/check.h"
@@ -12,22 +10,6 @@
 #include "critical/cell_paths.h"
 
 namespace isoatlas {
-
-/// An edge of G, from its lower end; value, second, third: the key of that (field/order.h).
-template <class T>
-struct DescendingDisks<T>::Edge {
-    double value;
-    std::int64_t second, third;
-    ElementPlace low, high;
-    auto operator<=>(const Edge&) const = default;
-};
-
-/// Edges mod 2, the lowest one first; and what has been met.
-template <class T>
-struct DescendingDisks<T>::Chain {
-    std::priority_queue<Edge, std::vector<Edge>, std::greater<>> edges;
-    std::vector<ElementPlace> opened;
-};
 
 template <class T>
 struct DescendingDisks<T>::Cell {
@@ -102,7 +84,7 @@ std::vector<typename DescendingDisks<T>::Cell> DescendingDisks<T>::cells_at(std:
 template <class T>
 void DescendingDisks<T>::put_grid_edge(std::int64_t v, std::int64_t w, Chain& chain) const {
     if (is_above(v, w)) std::swap(v, w);
-    chain.edges.push({static_cast<double>(grid_.samples[v]) + 0.0, 2 * v, 0, 4 * v, 4 * w});
+    chain.push({static_cast<double>(grid_.samples[v]) + 0.0, 2 * v, 0, 4 * v, 4 * w});
 }
 
 /// From one neighbour above u to another on a different axis: around the face of the three.
@@ -125,7 +107,7 @@ void DescendingDisks<T>::put_around_face(std::int64_t u, std::size_t from, std::
     for (const std::int64_t low : {u, opposite}) {
         if (static_cast<double>(grid_.samples[low]) == s) second = std::max(second, 2 * low + 1);
     }
-    for (const std::int64_t high : {v, w}) chain.edges.push({s + 0.0, second, face, 4 * face + 1, 4 * high});
+    for (const std::int64_t high : {v, w}) chain.push({s + 0.0, second, face, 4 * face + 1, 4 * high});
 }
 
 /// Elements of a cell one after the other (critical/cell_paths.h).
@@ -136,14 +118,14 @@ void DescendingDisks<T>::put_path(const Cell& cell, const std::vector<int>& path
         if (p < 8 && q < 8) {
             put_grid_edge(cell.elements.voxel[p], cell.elements.voxel[q], chain);
         } else {
-            chain.edges.push(cell.edge_of_face(std::max(p, q) - 8, std::min(p, q)));
+            chain.push(cell.edge_of_face(std::max(p, q) - 8, std::min(p, q)));
         }
     }
 }
 
 template <class T>
 void DescendingDisks<T>::put_face_edges(const Cell& cell, int f, Chain& chain) const {
-    for (const int corner : cell.highs(f)) chain.edges.push(cell.edge_of_face(f, corner));
+    for (const int corner : cell.highs(f)) chain.push(cell.edge_of_face(f, corner));
 }
 
 /// The loop around the tunnel of Lows of a cell.
@@ -167,7 +149,7 @@ bool DescendingDisks<T>::put_join(const Cell& cell, int f, Chain& chain) const {
         ISOATLAS_CHECK(!from_a.empty() && !to_c.empty());
         put_path(cell, from_a, chain);
         put_path(cell, to_c, chain);
-        for (const int corner : {body->region_a, body->region_b}) chain.edges.push(cell.edge_of_body(corner));
+        for (const int corner : {body->region_a, body->region_b}) chain.push(cell.edge_of_body(corner));
         return true;
     }
     // While a tunnel of Lows is open no face is of type H (tests/unit/critical/bodies_test.cpp), so any way is as good.
@@ -178,7 +160,7 @@ bool DescendingDisks<T>::put_join(const Cell& cell, int f, Chain& chain) const {
 }
 
 template <class T>
-void DescendingDisks<T>::start(ElementCode death, Chain& chain) const {
+void DescendingDisks<T>::add(ElementCode death, Chain& chain) const {
     if (death.kind() == CodeKind::vertex) {
         const std::int64_t u = death.index();
         const std::size_t first = death.axis() == 0 ? 2 : 0, second = death.axis() == 2 ? 2 : 4;  // directions of the axes above
@@ -199,68 +181,66 @@ void DescendingDisks<T>::start(ElementCode death, Chain& chain) const {
 }
 
 template <class T>
-void DescendingDisks<T>::replace_vertex_edge(const Edge& edge, Chain& chain) const {
+bool DescendingDisks<T>::replace_vertex_edge(const Edge& edge, Chain& chain) const {
     const std::int64_t u = edge.low / 4;
     const std::array<std::int64_t, 6> up = ups(u);
     const auto direction = static_cast<std::size_t>(std::ranges::find(up, edge.high / 4) - up.begin());
-    std::vector<std::size_t> first;  // upward directions, one for each axis that has one; axes that have one alone before the others
+    std::array<std::size_t, 3> first;  // upward directions, one for each axis that has one; axes that have one alone before the others
+    std::size_t count = 0;
     for (const bool two : {false, true}) {
         for (std::size_t d = 0; d < 6; d += 2) {
             const bool before = up[d] >= 0, behind = up[d + 1] >= 0;
-            if ((before || behind) && (before && behind) == two) first.push_back(before ? d : d + 1);
+            if ((before || behind) && (before && behind) == two) first[count++] = before ? d : d + 1;
         }
     }
     const std::size_t pushed = first[0];
-    if (direction == pushed) return;
-    if (direction / 2 != pushed / 2) return put_around_face(u, pushed, direction, chain);
-    if (first.size() == 1) {
-        chain.opened.push_back(edge.low);
-        return;
+    if (direction == pushed) return false;
+    if (direction / 2 != pushed / 2) {
+        put_around_face(u, pushed, direction, chain);
+        return false;
     }
+    if (count == 1) return true;
     put_around_face(u, pushed, first[1], chain);
     put_around_face(u, first[1], direction, chain);
+    return false;
 }
 
 template <class T>
-void DescendingDisks<T>::replace_face_edge(const Edge& edge, Chain& chain) const {
+bool DescendingDisks<T>::replace_face_edge(const Edge& edge, Chain& chain) const {
     std::array<int, 2> side{};
     const std::vector<Cell> cells = cells_at(edge.low / 4, side);
     if (cells.empty()) {                         // a volume of one slice
         const std::int64_t face = edge.low / 4;  // a and b are the first corners of the diagonals
         const bool is_first = edge.high / 4 == steps_.face_voxel(face, 0) || edge.high / 4 == steps_.face_voxel(face, 1);
-        if (!is_first) chain.opened.push_back(edge.low);
-        return;
+        return !is_first;
     }
-    if (edge.high / 4 == cells[0].elements.voxel[cells[0].highs(side[0])[0]]) return;
+    if (edge.high / 4 == cells[0].elements.voxel[cells[0].highs(side[0])[0]]) return false;
     for (std::size_t i = 0; i < cells.size(); ++i) {
-        if (put_join(cells[i], side[i], chain)) return;
+        if (put_join(cells[i], side[i], chain)) return false;
     }
-    chain.opened.push_back(edge.low);
+    return true;
 }
 
 template <class T>
-void DescendingDisks<T>::replace_body_edge(const Edge& edge, Chain& chain) const {
+bool DescendingDisks<T>::is_opened_by_body(const Edge& edge) const {
     const Cell cell = cell_at(edge.low / 4);
-    if (edge.high / 4 != cell.elements.voxel[cell.bodies.opening->region_a]) chain.opened.push_back(edge.low);
+    return edge.high / 4 != cell.elements.voxel[cell.bodies.opening->region_a];
 }
 
 template <class T>
-std::vector<ElementPlace> DescendingDisks<T>::boundary(ElementCode death) const {
-    Chain chain;
-    start(death, chain);
-    while (!chain.edges.empty()) {
-        const Edge edge = chain.edges.top();
+std::optional<ElementPlace> DescendingDisks<T>::next(Chain& chain) const {
+    while (!chain.empty()) {
+        const Edge edge = chain.top();
         bool odd = false;
-        for (; !chain.edges.empty() && chain.edges.top() == edge; chain.edges.pop()) odd = !odd;
+        for (; !chain.empty() && chain.top() == edge; chain.pop()) odd = !odd;
         if (!odd) continue;
-        switch (edge.low & 3) {
-            case 0: replace_vertex_edge(edge, chain); break;
-            case 1: replace_face_edge(edge, chain); break;
-            default: replace_body_edge(edge, chain);
-        }
+        const int kind = static_cast<int>(edge.low & 3);
+        const bool is_opened = kind == 0   ? replace_vertex_edge(edge, chain)
+                               : kind == 1 ? replace_face_edge(edge, chain)
+                                           : is_opened_by_body(edge);
+        if (is_opened) return edge.low;
     }
-    std::ranges::sort(chain.opened);
-    return std::move(chain.opened);
+    return std::nullopt;
 }
 
 #define ISOATLAS_INSTANTIATE(T) template class DescendingDisks<T>;

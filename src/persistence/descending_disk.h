@@ -9,12 +9,17 @@
 //                such cell: what the face point opens.
 //   body point   B1 is what it opens.
 // All of these chains lie above the lower end of the edge, so the lowest edge can always be replaced, mod 2, until only what was opened is
-// left: the boundary of the disk in the Morse complex. Source: Forman 1998, for the gradient; docs/decisions/0018.
+// left: the boundary of the disk in the Morse complex. It comes out in ascending order, so a trace may stop at the element that it needs.
+// Source: Forman 1998, for the gradient; docs/decisions/0018, 0047.
 //
 // In the literature: the descending manifold of a critical 2-cell and the boundary operator of the Morse complex mod 2 (Forman, Morse
 // theory for cell complexes, 1998; Robins, Wood, Sheppard 2011).
 #pragma once
 
+#include <compare>
+#include <functional>
+#include <optional>
+#include <queue>
 #include <vector>
 
 #include "critical/bodies.h"
@@ -35,13 +40,24 @@ public:
     /// tunnel_height: of tunnel_height_of (critical/bodies.h).
     DescendingDisks(const GridView<T>& grid, double tunnel_height) : grid_(grid), steps_(grid.extent), tunnel_height_(tunnel_height) {}
 
-    /// Places of the (2,1) elements that the disk of a (1,2) element ends at an odd number of times, ascending; those that merge objects
-    /// too. Cost: O(e log e) for a disk that meets e edges.
-    [[nodiscard]] std::vector<ElementPlace> boundary(ElementCode death) const;
+    /// An edge of G, from its lower end; value, second, third: the key of that (field/order.h).
+    struct Edge {
+        double value;
+        std::int64_t second, third;
+        ElementPlace low, high;
+        auto operator<=>(const Edge&) const = default;
+    };
+    /// The boundary of one disk, or of the sum mod 2 of several, as far as it has been followed: edges mod 2, the lowest one first.
+    using Chain = std::priority_queue<Edge, std::vector<Edge>, std::greater<>>;
+
+    /// Adds the disk of a (1,2) element.
+    void add(ElementCode death, Chain& chain) const;
+    /// The place of the lowest (2,1) element, among those that merge objects too, that the disks end at an odd number of times above all
+    /// that were returned; nullopt: none is left. Where a disk was added since, one that was returned may come once more: it ends there an
+    /// even number of times. Cost: O(e log e) for a disk that meets e edges below that element.
+    [[nodiscard]] std::optional<ElementPlace> next(Chain& chain) const;
 
 private:
-    struct Edge;
-    struct Chain;
     struct Cell;
 
     [[nodiscard]] bool is_above(std::int64_t voxel, std::int64_t other) const;
@@ -55,10 +71,10 @@ private:
     void put_face_edges(const Cell& cell, int f, Chain& chain) const;
     void put_ring(const Cell& cell, Chain& chain) const;
     bool put_join(const Cell& cell, int f, Chain& chain) const;
-    void start(ElementCode death, Chain& chain) const;
-    void replace_vertex_edge(const Edge& edge, Chain& chain) const;
-    void replace_face_edge(const Edge& edge, Chain& chain) const;
-    void replace_body_edge(const Edge& edge, Chain& chain) const;
+    // Return whether the edge is what its lower end opened; else they replace it.
+    [[nodiscard]] bool replace_vertex_edge(const Edge& edge, Chain& chain) const;
+    [[nodiscard]] bool replace_face_edge(const Edge& edge, Chain& chain) const;
+    [[nodiscard]] bool is_opened_by_body(const Edge& edge) const;
 
     GridView<T> grid_;
     GridSteps steps_;

@@ -2,8 +2,17 @@
 //
 // Rows are the elements that open a tunnel, columns those that close one. Elements that merge objects or part low components are paired by
 // the trees: a merge is never the lowest of a reduced column, so its row is left out; a parting element has the column 0.
+//
+// Columns are not stored. A disk is followed upwards to the first element that opened what no earlier column is paired with; most tunnels
+// close where they opened, so that is near. Of a reduced column only the disks are known that it is the sum of; where it has to be added,
+// they are followed once more (Bauer, Ripser: efficient computation of Vietoris-Rips persistence barcodes, 2021: emergent pairs, and the
+// reduction matrix instead of the reduced one). docs/decisions/0047.
+#include <algorithm>
+#include <iterator>
 #include <limits>
+#include <optional>
 #include <unordered_map>
+#include <utility>
 
 #include "base/big_vector.h"
 #include "base/cancel.h"
@@ -19,15 +28,6 @@ namespace isoatlas {
 namespace {
 
 constexpr std::int64_t kBatch = 64;  // columns
-
-/// Rows of a column, ascending: the last one was opened last.
-using Column = std::vector<std::int64_t>;
-
-Column sum(const Column& p, const Column& q) {
-    Column both;
-    std::ranges::set_symmetric_difference(p, q, std::back_inserter(both));
-    return both;
-}
 
 /// Events of the object of an event, all when it is none.
 template <class Id>
@@ -71,39 +71,72 @@ public:
 
     [[nodiscard]] std::vector<HandlePair> pairs() {
         const auto closing = static_cast<std::int64_t>(elements_.closing.size());
-        std::vector<Column> traced(static_cast<std::size_t>(kBatch));
+        std::vector<Sum> sums(static_cast<std::size_t>(kBatch));
         for (std::int64_t first = 0; first < closing; first += kBatch) {
             stop_if_cancelled(context_);
             report(context_, only_phase("tunnels"), static_cast<double>(first) / static_cast<double>(closing));
             const std::int64_t count = std::min(kBatch, closing - first);
-            for_each_block(context_.threads, count, [&](std::int64_t i) { traced[i] = column(elements_.closing[first + i]); });
-            for (std::int64_t i = 0; i < count; ++i) reduce(std::move(traced[i]), elements_.closing[first + i]);
+            for_each_block(context_.threads, count, [&](std::int64_t i) { sums[i] = reduced(single(elements_.closing[first + i])); });
+            for (std::int64_t i = 0; i < count; ++i) pair(reduced(std::move(sums[i])), elements_.closing[first + i]);
         }
         add_open();
         return std::move(pairs_);
     }
 
 private:
-    [[nodiscard]] Column column(ElementId element) const {
-        Column rows;
-        for (const ElementPlace place : disks_.boundary(ElementCode{arrays_.code[element]})) {
-            const auto row = row_of_.find(place);
-            if (row != row_of_.end()) rows.push_back(row->second);
+    using Chain = typename DescendingDisks<T>::Chain;
+    using Edge = typename DescendingDisks<T>::Edge;
+
+    /// A sum of columns mod 2, followed up to its lowest row.
+    struct Sum {
+        Chain chain;  ///< above that row
+        std::optional<std::int64_t> row;
+    };
+
+    [[nodiscard]] std::optional<std::int64_t> next_row(Chain& chain) const {
+        while (const std::optional<ElementPlace> place = disks_.next(chain)) {
+            const auto row = row_of_.find(*place);
+            if (row != row_of_.end()) return row->second;
         }
-        std::ranges::sort(rows);
-        return rows;
+        return std::nullopt;
     }
 
-    void reduce(Column rows, ElementId element) {
-        while (!rows.empty()) {
-            const auto other = reduced_.find(rows.back());
-            if (other == reduced_.end()) break;
-            rows = sum(rows, other->second);
+    [[nodiscard]] Sum single(ElementId element) const {
+        Sum one;
+        disks_.add(ElementCode{arrays_.code[element]}, one.chain);
+        one.row = next_row(one.chain);
+        return one;
+    }
+
+    /// Adds paired columns until the lowest row is of none.
+    [[nodiscard]] Sum reduced(Sum one) const {
+        while (one.row) {
+            const auto other = paired_.find(*one.row);
+            if (other == paired_.end()) break;
+            for (const Edge& edge : other->second) one.chain.push(edge);  // both end in that row
+            one.row = next_row(one.chain);
         }
-        ISOATLAS_CHECK(!rows.empty());  // it closes a tunnel
-        const std::int64_t row = rows.back();
-        pairs_.push_back({elements_.opening[row], element});
-        reduced_.emplace(row, std::move(rows));
+        return one;
+    }
+
+    /// The edges that are there an odd number of times, ascending.
+    [[nodiscard]] static std::vector<Edge> edges_of(Chain& chain) {
+        std::vector<Edge> edges;
+        while (!chain.empty()) {
+            if (!edges.empty() && edges.back() == chain.top())
+                edges.pop_back();
+            else
+                edges.push_back(chain.top());
+            chain.pop();
+        }
+        edges.shrink_to_fit();
+        return edges;
+    }
+
+    void pair(Sum one, ElementId element) {
+        ISOATLAS_CHECK(one.row.has_value());  // it closes a tunnel
+        pairs_.push_back({elements_.opening[*one.row], element});
+        paired_.emplace(*one.row, edges_of(one.chain));
     }
 
     /// Tunnels that are still open when the object merges.
@@ -113,7 +146,7 @@ private:
         if (is_root) return;
         const ElementId merge(arrays_.tree.top[arrays_.tree.parent[event_]]);
         for (std::size_t row = 0; row < elements_.opening.size(); ++row) {
-            if (!reduced_.contains(static_cast<std::int64_t>(row))) pairs_.push_back({elements_.opening[row], merge, true});
+            if (!paired_.contains(static_cast<std::int64_t>(row))) pairs_.push_back({elements_.opening[row], merge, true});
         }
     }
 
@@ -123,7 +156,7 @@ private:
     DescendingDisks<T> disks_;
     TunnelElements elements_;
     std::unordered_map<ElementPlace, std::int64_t> row_of_;
-    std::unordered_map<std::int64_t, Column> reduced_;  // by lowest row
+    std::unordered_map<std::int64_t, std::vector<Edge>> paired_;  // by lowest row: the reduced column above it
     std::vector<HandlePair> pairs_;
 };
 
