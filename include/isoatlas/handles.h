@@ -40,9 +40,9 @@ struct ExactHandles {
 
 /// The same handles, each with the isovalue at which it truly closes. Persistence of H1 mod 2 over the critical elements that the join tree
 /// (objects that merge) and the split tree (cavities that part) have not paired. analysis: of this volume. Order: as pair_handles(). Throws
-/// Error: usage (another volume, no such event, more than `max` tunnels), cancelled. Cost: a gradient disk traced for every tunnel that
-/// closes, then the reduction of a sparse matrix; no useful bound is known, docs/decisions/0018 has measured ones. The same for any number
-/// of threads.
+/// Error: usage (another volume, no such event, more than `max` tunnels), cancelled. Cost: a gradient disk for every tunnel that closes,
+/// traced as far as the reduction of a sparse matrix needs it, and what is left of it in memory; no useful bound is known,
+/// docs/decisions/0018 and 0047 have measured ones. The same for any number of threads.
 [[nodiscard]] std::vector<Handle> pair_handles_exactly(const Volume& volume, const Analysis& analysis, const ExactHandles& options = {},
                                                        const Context& context = {});
 

@@ -3,10 +3,9 @@
 // Rows are the elements that open a tunnel, columns those that close one. Elements that merge objects or part low components are paired by
 // the trees: a merge is never the lowest of a reduced column, so its row is left out; a parting element has the column 0.
 //
-// Columns are not stored. A disk is followed upwards to the first element that opened what no earlier column is paired with; most tunnels
-// close where they opened, so that is near. Of a reduced column only the disks are known that it is the sum of; where it has to be added,
-// they are followed once more (Bauer, Ripser: efficient computation of Vietoris-Rips persistence barcodes, 2021: emergent pairs, and the
-// reduction matrix instead of the reduced one). docs/decisions/0047.
+// A disk is followed upwards to the first element that opened what no earlier column is paired with; most tunnels close where they opened,
+// so that is near (Bauer, Ripser: efficient computation of Vietoris-Rips persistence barcodes, 2021: emergent pairs). What lies above it is
+// kept as edges that have not been replaced yet, and followed only where the column is added to another one. docs/decisions/0047.
 #include <algorithm>
 #include <iterator>
 #include <limits>

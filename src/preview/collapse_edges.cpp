@@ -73,19 +73,18 @@ public:
     }
 
     void reduce(std::size_t max) {
-        std::size_t part = 3;  // of the candidates: the third that costs least at a time
+        std::size_t part = 3;  // of the candidates: a third of them at a time, in the order of their cost
         while (triangles_left_ > max) {
             stop_if_cancelled(context_);
             std::vector<Candidate> candidates = all_candidates();
             const std::size_t wanted = std::min(candidates.size(), std::max<std::size_t>(candidates.size() / part, 64));
-            keep_cheapest(wanted, candidates);
-            // In the order of the points, which are near each other in memory, while many are to go: sorting cost as much as collapsing.
-            if (2 * wanted >= triangles_left_ - max) std::ranges::sort(candidates, is_cheaper);
+            const auto end = candidates.begin() + static_cast<std::ptrdiff_t>(wanted);
+            if (end != candidates.end()) std::ranges::nth_element(candidates, end, is_cheaper);
+            std::sort(candidates.begin(), end, is_cheaper);
             const std::size_t before = triangles_left_;
-            for (auto candidate = candidates.begin(); candidate != candidates.end() && triangles_left_ > max; ++candidate)
-                collapse(*candidate);
+            for (auto candidate = candidates.begin(); candidate != end && triangles_left_ > max; ++candidate) collapse(*candidate);
             if (before - triangles_left_ >= wanted / 64 + 1) continue;
-            if (part == 1 && before == triangles_left_) return;
+            if (wanted == candidates.size() && before == triangles_left_) return;
             part = 1;
         }
     }
@@ -125,18 +124,6 @@ private:
             link = &next_[corner];
             use(corner);
         }
-    }
-
-    /// Of equal ones the first in the order of points. The order stays.
-    static void keep_cheapest(std::size_t wanted, std::vector<Candidate>& candidates) {
-        if (wanted == candidates.size()) return;
-        std::vector<float> costs(candidates.size());
-        std::ranges::transform(candidates, costs.begin(), &Candidate::cost);
-        const auto most = costs.begin() + static_cast<std::ptrdiff_t>(wanted);
-        std::ranges::nth_element(costs, most);
-        auto equal = static_cast<std::ptrdiff_t>(wanted) - std::count_if(costs.begin(), most, [=](float cost) { return cost < *most; });
-        std::erase_if(candidates,
-                      [&](const Candidate& candidate) { return candidate.cost > *most || (candidate.cost == *most && --equal < 0); });
     }
 
     /// Each edge once, towards the point where its error is smaller.
