@@ -72,7 +72,7 @@ void append_group(const N* group, int width, std::vector<std::byte>& out) {
 }
 
 template <class N>
-constexpr std::size_t kLookedAt = 8 * sizeof(N) + 8;  ///< bytes read from the start of a group
+constexpr std::size_t kLookedAt = std::max<std::size_t>(8 * sizeof(N) + 8, 32);  ///< bytes read from the start of a group
 
 std::uint64_t word_at(const std::byte* from) {
     std::uint64_t word;
