@@ -6,11 +6,14 @@
 #include "base/check.h"
 #include "base/memory_limit.h"
 #include "base/paced_fill.h"
+#include "base/prefetch.h"
 #include "base/streamed.h"
 #include "field/order.h"
 
 namespace isoatlas {
 namespace {
+
+constexpr std::size_t kFar = 32, kNear = 12;  // names of a node are fetched so many nodes before, then what they lead to
 
 /// Merge tree of the extremum graph (Lukasczyk et al. 2023): union-find over maxima (split tree: minima), with the last node that each
 /// component met. Side by side: a find ends where it is needed.
@@ -21,10 +24,21 @@ public:
 
     Sweep(std::size_t extrema, MergeTree<Number>& parent) : parent_(parent) {
         const PinInMemory keep;
-        components_.items().resize(extrema);
+        components_ = decltype(components_)(filled(extrema, Component{kRoot, Element(0)}));
     }
 
-    void start(Extremum extremum, Element node) { components_[extremum] = {extremum, node, 1}; }
+    void start(Extremum extremum, Element node) { components_[extremum] = {kRoot | 1, node}; }
+
+    void fetch(const std::array<Extremum, 2>& names) const {
+        for (const Extremum name : names) prefetch_to_write(&components_[name]);
+    }
+    void fetch_roots(const std::array<Extremum, 2>& names) const {
+        for (const Extremum name : names) {
+            const Component& component = components_[name];
+            prefetch_to_write(is_root(component) ? static_cast<const void*>(&parent_[component.last])
+                                                 : static_cast<const void*>(&components_[Extremum(component.link)]));
+        }
+    }
 
     /// A node with so many branches: a leaf starts the component of its representative.
     void meet(int branches, const std::array<Extremum, 2>& names, Element node) {
@@ -41,24 +55,27 @@ public:
         parent_[components_[a].last] = node;
         if (b = find(b); b != a) {
             parent_[components_[b].last] = node;
-            if (components_[a].size < components_[b].size) std::swap(a, b);
-            components_[b].root = a;
-            components_[a].size += components_[b].size;
+            if (components_[a].link < components_[b].link) std::swap(a, b);
+            components_[a].link += components_[b].link & ~kRoot;
+            components_[b].link = a.number();
         }
         components_[a].last = node;
     }
 
 private:
+    static constexpr Number kRoot = Number{1} << (8 * sizeof(Number) - 1);
     struct Component {
-        Extremum root;
+        Number link;  ///< of a root: kRoot and how many extrema it stands for; else the way to it
         Element last;
-        Number size;
     };
+    [[nodiscard]] static bool is_root(const Component& component) { return (component.link & kRoot) != 0; }
 
     Extremum find(Extremum x) {
-        while (components_[x].root != x) {
-            components_[x].root = components_[components_[x].root].root;
-            x = components_[x].root;
+        while (!is_root(components_[x])) {
+            const Extremum next(components_[x].link);
+            if (is_root(components_[next])) return next;
+            components_[x].link = components_[next].link;
+            x = Extremum(components_[x].link);
         }
         return x;
     }
@@ -73,7 +90,11 @@ MergeTree<Number> sweep_down(std::size_t n, std::size_t maxima, const Count& cou
     using Element = ElementIdOf<Number>;
     MergeTree<Number> parent(filled(n + 1, Element(n)));
     Sweep<Number, MaximumIdOf<Number>> sweep(maxima, parent);
-    for (const Element i : streamed<Element>(n, in_order(8))) sweep.meet(count(i), names(i), i);
+    for (const Element i : streamed<Element>(n, in_order(8))) {
+        if (i.index() + kFar < n) sweep.fetch(names(Element(i.index() + kFar)));
+        if (i.index() + kNear < n) sweep.fetch_roots(names(Element(i.index() + kNear)));
+        sweep.meet(count(i), names(i), i);
+    }
     return parent;
 }
 
@@ -84,7 +105,11 @@ MergeTree<Number> sweep_up(std::size_t n, std::size_t minima, const Count& count
     MergeTree<Number> parent(filled(n + 1, Element(0)));
     Sweep<Number, Minimum> sweep(minima + 1, parent);
     sweep.start(Minimum(0), Element(n));  // the outside
-    for (const Element i : streamed_down<Element>(n, in_order(8))) sweep.meet(count(i), names(i), i);
+    for (const Element i : streamed_down<Element>(n, in_order(8))) {
+        if (i.index() >= kFar) sweep.fetch(names(Element(i.index() - kFar)));
+        if (i.index() >= kNear) sweep.fetch_roots(names(Element(i.index() - kNear)));
+        sweep.meet(count(i), names(i), i);
+    }
     return parent;
 }
 
