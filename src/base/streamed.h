@@ -154,12 +154,14 @@ template <class I = std::size_t>
     return {count, step, true};
 }
 
-/// From every id 0 .. count - 1 in order along a chain: x, x = visit(x), ... as long as goes_on(x). step: of a visit.
-template <class I, class GoesOn, class Visit>
-void for_chains(std::size_t count, StepBytes step, const GoesOn& goes_on, const Visit& visit) {
+/// From every id 0 .. count - 1 in order along a chain: x, x = visit(x), ... as long as goes_on(x). step: of a visit. at_seed(number): is
+/// called before a chain, to fetch what a later one needs.
+template <class I, class GoesOn, class Visit, class AtSeed = void (*)(std::size_t)>
+void for_chains(std::size_t count, StepBytes step, const GoesOn& goes_on, const Visit& visit, const AtSeed& at_seed = [](std::size_t) {}) {
     BudgetPoll poll;
     for (std::size_t seed = 0; seed < count; ++seed) {
         poll.step(in_order(1).bytes);
+        at_seed(seed);
         for (I x(seed); goes_on(x); x = visit(x)) poll.step(step.bytes);
     }
 }

@@ -5,6 +5,7 @@
 #include "base/check.h"
 #include "base/paced_fill.h"
 #include "base/parallel.h"
+#include "base/prefetch.h"
 #include "base/streamed.h"
 
 namespace isoatlas {
@@ -12,75 +13,95 @@ namespace {
 
 constexpr std::size_t kNodesAhead = 16;  // a parent is fetched so many nodes before it is needed
 
-// A node in both trees while leaves are removed: its parents, and the xor of its children (the child itself once only one is left).
-// Side by side, because a removal touches all four and the next node is somewhere else.
+// A node while leaves are removed. Side by side, because a removal touches all of it at a node that is somewhere else.
 template <class Number>
-struct Links {
-    ElementIdOf<Number> join_parent;
-    Number join_children;
-    ElementIdOf<Number> split_parent;
-    Number split_children;
+struct ShrinkingNode {
+    ElementIdOf<Number> join_parent, split_parent;  // a removed node is passed over (other_end)
+    std::make_signed_t<Number> half_chi;            // until its arc is made: sum(above) + delta_chi - sum(below) over arcs made at the node
+    std::uint8_t left;                              // of its degree (ContourTree::degree), or how it was removed
 };
 
-/// Nodes of one of the two trees. Parent, Children: its members of Links.
-template <class Number, ElementIdOf<Number> Links<Number>::* Parent, Number Links<Number>::* Children>
-struct ShrinkingTree {
+constexpr std::uint8_t kUpperLeaf = 0 | 1 << 2;  // nothing above, one below
+constexpr std::uint8_t kLowerLeaf = 1 | 0 << 2;
+constexpr std::uint8_t kUpperGone = 0xfe, kLowerGone = 0xff;  // was removed as an upper leaf, as a lower leaf
+
+template <class Number, ElementIdOf<Number> ShrinkingNode<Number>::* Parent>
+ElementIdOf<Number> other_end(IdSpan<ElementIdOf<Number>, ShrinkingNode<Number>> nodes, ElementIdOf<Number> leaf) {
     using Element = ElementIdOf<Number>;
-    IdSpan<Element, Links<Number>> node;
-
-    [[nodiscard]] bool is_root(Element x) const { return node[x].*Parent == x; }
-    [[nodiscard]] Element parent(Element x) const { return node[x].*Parent; }
-
-    /// Fills in the children. Returns how many each node has.
-    [[nodiscard]] ByElement<Number, std::uint8_t> gather_children() {
-        ByElement<Number, std::uint8_t> count(filled(node.size(), std::uint8_t{0}));
-        for (const Element x : streamed<Element>(node.size(), at_random())) {
-            if (x.index() + kNodesAhead < node.size()) __builtin_prefetch(&node[parent(Element(x.index() + kNodesAhead))], 1);
-            if (is_root(x)) continue;
-            node[parent(x)].*Children ^= x.number();
-            ++count[parent(x)];
-        }
-        return count;
+    // A leaf of one tree had one child in the other, so it can be passed over there. Path halving.
+    Element x = leaf, parent = nodes[x].*Parent;
+    while (nodes[parent].left >= kUpperGone) {
+        parent = nodes[parent].*Parent;
+        nodes[x].*Parent = parent;
+        if (nodes[parent].left < kUpperGone) break;
+        x = parent;
+        parent = nodes[x].*Parent;
     }
-    void remove_leaf(Element x) { node[parent(x)].*Children ^= x.number(); }
-    /// x has exactly one child: it takes the place of x.
-    void splice(Element x) {
-        const Element child(node[x].*Children);
-        if (is_root(x)) {
-            node[child].*Parent = child;
-        } else {
-            node[child].*Parent = parent(x);
-            node[parent(x)].*Children ^= x.number() ^ child.number();
-        }
-    }
-};
-
-template <class Number>
-using ShrinkingJoinTree = ShrinkingTree<Number, &Links<Number>::join_parent, &Links<Number>::join_children>;
-template <class Number>
-using ShrinkingSplitTree = ShrinkingTree<Number, &Links<Number>::split_parent, &Links<Number>::split_children>;
-
-/// Removes x from both trees: a leaf of one, a node with one child in the other. Returns the other end of its arc.
-template <class Element, class LeafTree, class OtherTree>
-Element remove(Element x, LeafTree& leaf_tree, OtherTree& other_tree) {
-    leaf_tree.remove_leaf(x);
-    other_tree.splice(x);
-    return leaf_tree.parent(x);
+    return nodes[leaf].*Parent = parent;
 }
 
-constexpr std::uint8_t kUpperLeaf = 0 | 1 << 2;  // nothing above, one below (ContourTree::degree)
-constexpr std::uint8_t kLowerLeaf = 1 | 0 << 2;
-constexpr std::uint8_t kGone = 0xff;
-
-/// half_chi until the arc of a node is made: sum(above) + delta_chi - sum(below) over the arcs made at the node.
+/// How many children each node has.
 template <class Number>
-auto start_half_chi(std::size_t nodes, ByElementView<Number, std::int8_t> delta_chi) {
-    using Signed = typename ContourTree<Number>::Signed;
-    ByElement<Number, Signed> half_chi(filled(nodes, Signed{0}));
-    if (delta_chi.empty()) return half_chi;
-    for (const auto x : delta_chi.ids()) half_chi[x] = delta_chi[x];
-    half_chi.items().back() = -1;  // the outside closes every contour like a minimum
-    return half_chi;
+ByElement<Number, std::uint8_t> count_children(MergeTreeView<Number> parent) {
+    using Element = ElementIdOf<Number>;
+    ByElement<Number, std::uint8_t> count(filled(parent.size(), std::uint8_t{0}));
+    for (const Element x : streamed<Element>(parent.size(), at_random())) {
+        if (x.index() + kNodesAhead < parent.size()) prefetch_to_write(&count[parent[Element(x.index() + kNodesAhead)]]);
+        if (parent[x] != x) ++count[parent[x]];
+    }
+    return count;
+}
+
+/// Nodes and degrees of the contour tree, all arcs to be made.
+template <class Number>
+ByElement<Number, ShrinkingNode<Number>> start_nodes(MergeTreeView<Number> join, MergeTreeView<Number> split,
+                                                     ByElementView<Number, std::int8_t> delta_chi, int threads,
+                                                     ByElement<Number, std::uint8_t>& degree) {
+    using Element = ElementIdOf<Number>;
+    const std::size_t count = join.size();
+    ByElement<Number, std::uint8_t> below;
+    run_both(threads, [&] { degree = count_children<Number>(join); }, [&] { below = count_children<Number>(split); });
+    ByElement<Number, ShrinkingNode<Number>> nodes(count);
+    for_each_index(threads, count, [&](std::size_t i) {
+        const Element x(i);
+        degree[x] = static_cast<std::uint8_t>(degree[x] | below[x] << 2);
+        const bool has_chi = i < delta_chi.size();
+        nodes[x] = {join[x], split[x], has_chi ? delta_chi[x] : std::int8_t{0}, degree[x]};
+    });
+    if (!delta_chi.empty()) nodes[Element(count - 1)].half_chi = -1;  // the outside closes every contour like a minimum
+    return nodes;
+}
+
+/// Removes leaves until only the outside is left; then the arc of a node is in it. Returns how many were removed.
+template <class Number>
+std::size_t remove_leaves(IdSpan<ElementIdOf<Number>, ShrinkingNode<Number>> nodes) {
+    using Element = ElementIdOf<Number>;
+    using Node = ShrinkingNode<Number>;
+    using Signed = std::make_signed_t<Number>;
+    const Element outside(nodes.size() - 1);
+    const auto is_leaf = [&](const Node& node) { return node.left == kUpperLeaf || node.left == kLowerLeaf; };
+    std::size_t arcs = 0;
+    // Follow the chain of leaves that a seed uncovers; earlier seeds that become leaves are taken by the chain itself.
+    for_chains<Element>(
+        outside.index(), at_random(4), [&](Element x) { return x != outside && is_leaf(nodes[x]); },
+        [&](Element x) {
+            Node& node = nodes[x];
+            const bool upper = node.left == kUpperLeaf;
+            const Element y = upper ? other_end<Number, &Node::join_parent>(nodes, x) : other_end<Number, &Node::split_parent>(nodes, x);
+            Node& end = nodes[y];
+            if (!upper) node.half_chi = static_cast<Signed>(-node.half_chi);
+            end.half_chi += upper ? node.half_chi : static_cast<Signed>(-node.half_chi);
+            end.left = static_cast<std::uint8_t>(end.left - (upper ? kLowerLeaf : kUpperLeaf));
+            node.left = upper ? kUpperGone : kLowerGone;
+            ++arcs;
+            return y;
+        },
+        [&](std::size_t seed) {
+            if (seed + kNodesAhead >= nodes.size()) return;
+            const Node& node = nodes[Element(seed + kNodesAhead)];
+            if (is_leaf(node)) prefetch_to_write(&nodes[node.left == kUpperLeaf ? node.join_parent : node.split_parent]);
+        });
+    return arcs;
 }
 
 }  // namespace
@@ -89,48 +110,21 @@ template <class Number>
 ContourTree<Number> contour_tree(MergeTreeView<Number> join_parents, MergeTree<Number> split_parents,
                                  ByElementView<Number, std::int8_t> delta_chi, int threads) {
     using Element = ElementIdOf<Number>;
-    using Signed = typename ContourTree<Number>::Signed;
-    const std::size_t nodes = join_parents.size();
-    ByElement<Number, Links<Number>> links(nodes);
-    for_each_index(threads, nodes, [&](std::size_t i) {
-        const Element x(i);
-        links[x] = {join_parents[x], 0, split_parents[x], 0};
-    });
-    release(split_parents.items());
-    ShrinkingJoinTree<Number> join{links};
-    ShrinkingSplitTree<Number> split{links};
-    ByElement<Number, std::uint8_t> count, below;
-    run_both(threads, [&] { count = join.gather_children(); }, [&] { below = split.gather_children(); });
-    for (const Element x : count.ids()) count[x] = static_cast<std::uint8_t>(count[x] | below[x] << 2);
     ContourTree<Number> tree;
-    tree.degree = count;
-    tree.other.items().resize(nodes);
-    tree.half_chi = start_half_chi(nodes, delta_chi);
-
-    std::size_t arcs = 0;
-    const Element outside = tree.outside();
-    // Follow the chain of leaves that a seed uncovers; earlier seeds that become leaves are taken by the chain itself.
-    for_chains<Element>(
-        outside.index(), at_random(4), [&](Element x) { return x != outside && (count[x] == kUpperLeaf || count[x] == kLowerLeaf); },
-        [&](Element x) {
-            const bool upper = count[x] == kUpperLeaf;
-            const Element y = upper ? remove(x, join, split) : remove(x, split, join);
-            tree.other[x] = y;
-            if (upper) {
-                tree.half_chi[y] += tree.half_chi[x];
-                count[y] = static_cast<std::uint8_t>(count[y] - 1);
-            } else {
-                tree.half_chi[x] = static_cast<Signed>(-tree.half_chi[x]);
-                tree.half_chi[y] -= tree.half_chi[x];
-                count[y] = static_cast<std::uint8_t>(count[y] - 4);
-            }
-            count[x] = kGone;
-            ++arcs;
-            return y;
-        });
-    ISOATLAS_CHECK(arcs == outside.index());
-    tree.other[outside] = outside;
-    ISOATLAS_CHECK(tree.half_chi[outside] == 0);
+    ByElement<Number, ShrinkingNode<Number>> nodes = start_nodes<Number>(join_parents, split_parents, delta_chi, threads, tree.degree);
+    release(split_parents.items());
+    const Element outside(nodes.size() - 1);
+    ISOATLAS_CHECK(remove_leaves<Number>(nodes) == outside.index());
+    ISOATLAS_CHECK(nodes[outside].half_chi == 0);
+    nodes[outside].join_parent = outside;
+    nodes[outside].left = kUpperGone;
+    tree.other.items().resize(nodes.size());
+    tree.half_chi.items().resize(nodes.size());
+    for_each_index(threads, nodes.size(), [&](std::size_t i) {
+        const ShrinkingNode<Number>& node = nodes[Element(i)];
+        tree.other[Element(i)] = node.left == kUpperGone ? node.join_parent : node.split_parent;
+        tree.half_chi[Element(i)] = node.half_chi;
+    });
     return tree;
 }
 
