@@ -8,6 +8,7 @@
 #include "analysis/trees.h"
 #include "base/big_vector.h"
 #include "base/paced_fill.h"
+#include "base/parallel.h"
 #include "critical/domain.h"
 #include "tree/heavy_paths.h"
 #include "zones/label.h"
@@ -22,9 +23,11 @@ void make_zones(const D& domain, ByVoxel<typename D::Number, typename D::Number>
     using Number = typename D::Number;
     using Sample = typename D::Sample;
     const CriticalityTree<Number>& tree = arrays.tree;
-    ElementsOfMaxima<Number> maxima = domain.elements_of_maxima(arrays.code);
-    const HeavyPathDecomposition<Number, ComparisonValue<Sample>> paths({tree.parent, arrays.value, tree.top, tree.event_of_element},
-                                                                        maxima, context.threads);
+    const DescendingTree<Number> events{tree.parent, arrays.value, tree.top, tree.event_of_element};
+    ElementsOfMaxima<Number> maxima;
+    ByEvent<Number, HeavyNode<Number>> nodes;
+    run_both(context.threads, [&] { maxima = domain.elements_of_maxima(arrays.code); }, [&] { nodes = weigh(events); });
+    const HeavyPathDecomposition<Number, ComparisonValue<Sample>> paths(events, std::move(nodes), maxima, context.threads);
     release(maxima.items());
     fill_fresh(arrays.voxels.items(), tree.size(), Number{0});
     const std::span<Number> basin_to_zone = basin.items();

@@ -8,6 +8,7 @@
 
 #include "base/memory_limit.h"
 #include "base/parallel.h"
+#include "base/prefetch.h"
 #include "base/streamed.h"
 
 namespace isoatlas {
@@ -22,15 +23,18 @@ Value rounded_down(double v) {
     return static_cast<double>(rounded) > v ? std::nextafter(rounded, -std::numeric_limits<Value>::infinity()) : rounded;
 }
 
-/// Weights, heavy children, lengths. Children come before their parents.
+}  // namespace
+
+// Children come before their parents.
 template <class Number>
 ByEvent<Number, HeavyNode<Number>> weigh(const DescendingTree<Number>& tree) {
     using Event = EventIdOf<Number>;
+    const PinInMemory keep;
     ByEvent<Number, HeavyNode<Number>> nodes(tree.size());
     for (const Event e : streamed<Event>(nodes.size(), in_order(8))) nodes[e] = {e, 1, 1};
     for (const Event e : streamed<Event>(nodes.size(), at_random(2))) {
         if (e.index() + kEventsAhead < nodes.size()) {
-            __builtin_prefetch(nodes.items().data() + tree.parent[Event(e.index() + kEventsAhead)].index(), 1);
+            prefetch_to_write(nodes.items().data() + tree.parent[Event(e.index() + kEventsAhead)].index());
         }
         if (tree.is_root(e)) continue;
         const Event p = tree.parent[e];
@@ -42,16 +46,19 @@ ByEvent<Number, HeavyNode<Number>> weigh(const DescendingTree<Number>& tree) {
     return nodes;
 }
 
-}  // namespace
-
 template <class Number, class Value>
-HeavyPathDecomposition<Number, Value>::HeavyPathDecomposition(const DescendingTree<Number>& tree,
+HeavyPathDecomposition<Number, Value>::HeavyPathDecomposition(const DescendingTree<Number>& tree, ByEvent<Number, HeavyNode<Number>> nodes,
                                                               IdSpan<Maximum, const ElementIdOf<Number>> maxima, int threads) {
     const PinInMemory keep;
-    stops_.resize(tree.size() + kSteps);
-    std::fill(stops_.end() - kSteps, stops_.end(), Stop{0, Event(0)});
-    ByEvent<Number, HeavyNode<Number>> nodes = weigh(tree);
-    const BigVector<Path> laid = lay_out(tree, nodes);
+    BigVector<Path> laid = lay_out(tree, nodes);
+    make_stops(tree, nodes, threads);
+    for_each_index(threads, laid.size(), [&](std::size_t i) {
+        Path& path = laid[i];  // below: so far the event
+        const bool is_root = path.below == tree.size();
+        path.value_below =
+            is_root ? -std::numeric_limits<Value>::infinity() : rounded_down<Value>(tree.value[tree.top_of(Event(path.below))]);
+        path.below = is_root ? 0 : nodes[Event(path.below)].path;
+    });
     // A leaf event's highest element is a maximum: its number is that of the path.
     BigVector<Maximum> name(laid.size());
     IdArray<Maximum, Number> path_of(maxima.size());
@@ -62,18 +69,17 @@ HeavyPathDecomposition<Number, Value>::HeavyPathDecomposition(const DescendingTr
         if (nodes[e].heavy == e && tree.top_of(e) == maxima[m]) name[path_of[m]] = m;
     });
     release(nodes.items());  // the next arrays reuse their memory
-    bucket_.resize(tree.size());
+    make_scales(laid, threads);
     paths_.items().resize(maxima.size());
     for_each_index(threads, maxima.size(), [&](std::size_t i) {
         Path& path = paths_[Maximum(i)];
         path = laid[path_of[Maximum(i)]];
         path.below = name[path.below].number();
     });
-    for (const std::size_t path : streamed(laid.size(), at_random(2))) prepare_scale(laid[path]);
-    for_each_index(threads, laid.size(), [&](std::size_t path) { make_buckets(laid[path]); });
 }
 
-// Parents before their children: a path begins at its lowest event, and its events are met in ascending order.
+// Parents before their children: a path begins at its lowest event, and its events are met in ascending order. below: the event that a path
+// ends at, of the root's one behind the last.
 template <class Number, class Value>
 auto HeavyPathDecomposition<Number, Value>::lay_out(const DescendingTree<Number>& tree, IdSpan<Event, HeavyNode<Number>> nodes)
     -> BigVector<Path> {
@@ -82,62 +88,82 @@ auto HeavyPathDecomposition<Number, Value>::lay_out(const DescendingTree<Number>
     for (const Event e : streamed<Event>(tree.size(), in_order(8))) leaves += nodes[e].heavy == e;
     paths.reserve(leaves);  // each path has one
     Number end = 0;
-    for (const Event e : streamed_down<Event>(tree.size(), at_random(3))) {
-        if (e.index() >= kEventsAhead) __builtin_prefetch(nodes.items().data() + tree.parent[Event(e.index() - kEventsAhead)].index());
+    for (const Event e : streamed_down<Event>(tree.size(), at_random())) {
+        if (e.index() >= kEventsAhead) prefetch(nodes.items().data() + tree.parent[Event(e.index() - kEventsAhead)].index());
         const bool is_root = tree.is_root(e);
+        const Event parent = is_root ? Event(tree.size()) : tree.parent[e];
         HeavyNode<Number>& node = nodes[e];
-        const HeavyNode<Number>& parent = nodes[is_root ? e : tree.parent[e]];
-        if (!is_root && parent.heavy == e) {
-            node.path = parent.path;
-            node.position = parent.position + 1;
+        if (!is_root && nodes[parent].heavy == e) {
+            node.path = nodes[parent].path;
+            node.position = nodes[parent].position + 1;
         } else {
             const Number first = std::exchange(end, end + node.position);
-            paths.push_back(is_root ? Path{-std::numeric_limits<Value>::infinity(), 0, first, end}
-                                    : Path{stops_[parent.position].value, parent.path, first, end});
+            paths.push_back({0, parent.number(), first, end});
             node.path = static_cast<Number>(paths.size() - 1);
             node.position = first;
         }
-        stops_[node.position] = {rounded_down<Value>(tree.value[tree.top_of(e)]), e};
     }
     return paths;
 }
 
 template <class Number, class Value>
-void HeavyPathDecomposition<Number, Value>::prepare_scale(const Path& path) {
-    if (!is_long(path)) return;
-    const double low = stops_[path.first].value, width = static_cast<double>(stops_[path.end - 1].value) - low;
-    const double factor = static_cast<double>(buckets(path)) / width;
-    bucket_[path.first] = static_cast<Number>(scales_.size());
-    scales_.push_back({low, factor < std::numeric_limits<double>::max() ? factor : 0});  // a width that underflows: one bucket
+void HeavyPathDecomposition<Number, Value>::make_stops(const DescendingTree<Number>& tree, IdSpan<Event, const HeavyNode<Number>> nodes,
+                                                       int threads) {
+    stops_.resize(tree.size() + kSteps);
+    std::fill(stops_.end() - kSteps, stops_.end(), Stop{0, Event(0)});
+    for_each_index(threads, tree.size(), [&](std::size_t i) {
+        const Event e(i);
+        stops_[nodes[e].position] = {rounded_down<Value>(tree.value[tree.top_of(e)]), e};
+    });
+}
+
+template <class Number, class Value>
+void HeavyPathDecomposition<Number, Value>::make_scales(std::span<Path> paths, int threads) {
+    scales_.push_back({0, 0, 0, 0});
+    for (const std::size_t i : streamed(paths.size(), in_order(2))) {
+        const Number end = paths[i].scale;
+        const bool is_long = end - paths[i].first >= kBucketed;
+        paths[i].scale = is_long ? static_cast<Number>(scales_.size()) : 0;
+        if (is_long) scales_.push_back({0, 0, 0, end});
+    }
+    bucket_.resize(stops_.size() - kSteps);
+    for_each_index(threads, paths.size(), [&](std::size_t i) { make_buckets(paths[i]); });
 }
 
 template <class Number, class Value>
 void HeavyPathDecomposition<Number, Value>::make_buckets(const Path& path) {
-    if (!is_long(path)) return;
-    Number* const first_in = bucket_.data() + path.first + 1;
+    if (path.scale == 0) {
+        bucket_[path.first] = path.first;
+        return;
+    }
+    Scale& scale = scales_[path.scale];
+    const Number count = scale.end - path.first;
+    scale.low = stops_[path.first].value, scale.last = static_cast<double>(count - 1);
+    const double factor = scale.last / (static_cast<double>(stops_[scale.end - 1].value) - scale.low);
+    scale.factor = factor < std::numeric_limits<double>::max() ? factor : 0;  // a width that underflows: one bucket
+    Number* const first_in = bucket_.data() + path.first;
     Number next = 0;
-    for (const std::size_t position : streamed(path.end - path.first, in_order(8))) {
+    for (const std::size_t position : streamed(count, in_order(8))) {
         const Number p = path.first + static_cast<Number>(position);
-        const Number last = bucket_of(path, stops_[p].value) - path.first - 1;
+        const Number last = bucket_of(path, stops_[p].value) - path.first;
         while (next <= last) first_in[next++] = p;
     }
-    while (next < buckets(path)) first_in[next++] = path.end - 1;
+    while (next < count) first_in[next++] = scale.end - 1;
 }
 
-/// Where bucket_ holds a position not above the lowest event of the path with a value of x or more; for a short path that position itself.
-/// Monotone in x, rounding included: that is all the search needs.
+/// Where bucket_ holds a position not above the lowest event of the path with a value of x or more. Monotone in x, rounding included: that
+/// is all the search needs.
 template <class Number, class Value>
-Number HeavyPathDecomposition<Number, Value>::bucket_of(const Path& path, Value x) const {
-    if (!is_long(path)) return path.first;
-    const Scale& scale = scales_[bucket_[path.first]];
+[[gnu::always_inline]] inline Number HeavyPathDecomposition<Number, Value>::bucket_of(const Path& path, Value x) const {
+    const Scale& scale = scales_[path.scale];
     const double bucket = (static_cast<double>(x) - scale.low) * scale.factor;
-    return path.first + 1 + (bucket > 0 ? static_cast<Number>(std::min(bucket, static_cast<double>(buckets(path) - 1))) : Number{0});
+    return path.first + static_cast<Number>(std::min(std::max(bucket, 0.0), scale.last));
 }
 
 template <class Number, class Value>
 Number HeavyPathDecomposition<Number, Value>::end_of_bucket(const Path& path, Value x) const {
-    const Number bucket = bucket_of(path, x);
-    return is_long(path) && bucket < path.first + buckets(path) ? bucket_[bucket + 1] + 1 : path.end;
+    const Number bucket = bucket_of(path, x), end = scales_[path.scale].end;
+    return bucket + 1 < end ? bucket_[bucket + 1] + 1 : end;
 }
 
 /// From a position not above it: the lowest event of the path with a value of x or more.
@@ -153,7 +179,7 @@ template <class Number, class Value>
         steps += on;
     }
     stop += steps;
-    for (int k = 0; on && k < 8 && stop->value < x; ++k) ++stop;
+    for (int k = 0; on && k < kMoreSteps && stop->value < x; ++k) ++stop;
     if (on && stop->value < x) {  // a crowded bucket
         const Stop* end = stops_.data() + end_of_bucket(paths_[Maximum(path)], x);
         stop = std::lower_bound(stop, end, x, [](const Stop& s, Value value) { return s.value < value; });
@@ -181,17 +207,14 @@ void HeavyPathDecomposition<Number, Value>::zones_by_place(std::span<const Value
     }
     std::iota(order.begin(), order.end(), 0U);
     sort_by(order, path);
-    std::vector<std::uint8_t> in_bucket(x.size());
     for (const std::size_t k : streamed(order.size(), at_random())) {
         const std::uint32_t i = order[k];
-        const Path& at = paths_[Maximum(path[i])];
-        zone[i] = bucket_of(at, x[i]);
-        in_bucket[i] = zone[i] != at.first;
+        zone[i] = bucket_of(paths_[Maximum(path[i])], x[i]);
     }
     sort_by(order, zone);  // positions in a path are in about the same order
     for (const std::size_t k : streamed(order.size(), at_random(3))) {
         const std::uint32_t i = order[k];
-        zone[i] = event_from(in_bucket[i] != 0 ? bucket_[zone[i]] : zone[i], path[i], x[i]).number();
+        zone[i] = event_from(bucket_[zone[i]], path[i], x[i]).number();
     }
 }
 
@@ -215,16 +238,18 @@ void HeavyPathDecomposition<Number, Value>::zones(std::span<const Value> x, std:
     }
     for (std::size_t i = 0; i < x.size(); ++i) {  // zone: first the bucket, then the position where the search starts, then the zone
         zone[i] = bucket_of(paths_[Maximum(path[i])], x[i]);
-        __builtin_prefetch(bucket_.data() + zone[i]);
+        prefetch(bucket_.data() + zone[i]);
     }
     for (std::size_t i = 0; i < x.size(); ++i) {
-        if (zone[i] != paths_[Maximum(path[i])].first) zone[i] = bucket_[zone[i]];
-        __builtin_prefetch(stops_.data() + zone[i]);
-        __builtin_prefetch(stops_.data() + zone[i] + kSteps - 1);
+        zone[i] = bucket_[zone[i]];
+        prefetch(stops_.data() + zone[i]);
+        prefetch(stops_.data() + zone[i] + kSteps - 1);
     }
     for (std::size_t i = 0; i < x.size(); ++i) zone[i] = event_from(zone[i], path[i], x[i]).number();
 }
 
+template ByEvent<std::uint32_t, HeavyNode<std::uint32_t>> weigh(const DescendingTree<std::uint32_t>&);
+template ByEvent<std::uint64_t, HeavyNode<std::uint64_t>> weigh(const DescendingTree<std::uint64_t>&);
 template class HeavyPathDecomposition<std::uint32_t, float>;
 template class HeavyPathDecomposition<std::uint32_t, double>;
 template class HeavyPathDecomposition<std::uint64_t, float>;

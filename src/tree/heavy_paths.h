@@ -57,6 +57,10 @@ struct HeavyNode {
     Number position;          ///< in stops_; first the length of its path from here up
 };
 
+/// Weights, heavy children, lengths. Cost: O(n), one parent at random an event.
+template <class Number>
+[[nodiscard]] ByEvent<Number, HeavyNode<Number>> weigh(const DescendingTree<Number>& tree);
+
 template <class Number, class Value>
 class HeavyPathDecomposition {
 public:
@@ -64,7 +68,11 @@ public:
     using Maximum = MaximumIdOf<Number>;
 
     /// maxima: per maximum, in raster order, its element. Cost: O(n) time; 12 bytes an event besides the result while it runs.
-    HeavyPathDecomposition(const DescendingTree<Number>& tree, IdSpan<Maximum, const ElementIdOf<Number>> maxima, int threads);
+    HeavyPathDecomposition(const DescendingTree<Number>& tree, IdSpan<Maximum, const ElementIdOf<Number>> maxima, int threads)
+        : HeavyPathDecomposition(tree, weigh(tree), maxima, threads) {}
+    /// nodes: of weigh().
+    HeavyPathDecomposition(const DescendingTree<Number>& tree, ByEvent<Number, HeavyNode<Number>> nodes,
+                           IdSpan<Maximum, const ElementIdOf<Number>> maxima, int threads);
 
     /// Zones of many samples at once: for sample i of value x[i] whose ascending path leads to maximum[i]: the event e on the way down with
     /// value(parent(e)) < x[i] <= value(e). In rounds over all samples, so that their cache misses overlap.
@@ -76,23 +84,25 @@ private:
     struct Path {
         Value value_below;  ///< value of the event the path ends at; -infinity for the path of the root
         Number below;       ///< path of that event
-        Number first, end;  ///< positions of its events in stops_
+        Number first;       ///< position of its lowest event in stops_
+        Number scale;       ///< place in scales_; first the position behind its highest event
     };
     struct Stop {
         Value value;
         Event event;
     };
     struct Scale {
-        double low, factor;  ///< bucket of x = (x - low) * factor
+        double low, factor, last;  ///< bucket of x = (x - low) * factor, at most last
+        Number end;                ///< position behind the highest event of the path
     };
-    static constexpr Number kBucketed = 16;  ///< shorter paths are searched directly
-    static constexpr int kSteps = 4;         ///< of a search that are taken without branches; stops_ has as many more entries
+    static constexpr int kSteps = 4;      ///< of a search that are taken without branches; stops_ has as many more entries
+    static constexpr int kMoreSteps = 8;  ///< with branches; then the search is binary
+    static constexpr Number kBucketed = kSteps + kMoreSteps + 1;  ///< shorter paths are searched by steps: they have one scale, of 0
 
     [[nodiscard]] BigVector<Path> lay_out(const DescendingTree<Number>& tree, IdSpan<Event, HeavyNode<Number>> nodes);
-    void prepare_scale(const Path& path);
+    void make_stops(const DescendingTree<Number>& tree, IdSpan<Event, const HeavyNode<Number>> nodes, int threads);
+    void make_scales(std::span<Path> paths, int threads);
     void make_buckets(const Path& path);
-    [[nodiscard]] static bool is_long(const Path& path) { return path.end - path.first >= kBucketed; }
-    [[nodiscard]] static Number buckets(const Path& path) { return path.end - path.first - 1; }
     [[nodiscard]] Number bucket_of(const Path& path, Value x) const;
     [[nodiscard]] Event event_from(Number position, Number path, Value x) const;
     void zones_by_place(std::span<const Value> x, std::span<Number> path, std::span<std::uint32_t> order, std::span<Number> zone) const;
@@ -101,8 +111,8 @@ private:
 
     IdArray<Maximum, Path> paths_;  ///< maxima of one event have equal ones
     BigVector<Stop> stops_;         ///< by position
-    BigVector<Number> bucket_;      ///< of a long path: its place in scales_, then per bucket the first position in it or a later one
-    std::vector<Scale> scales_;
+    BigVector<Number> bucket_;      ///< by position; of a long path: per bucket the first position in it or a later one; of others: first
+    std::vector<Scale> scales_;     ///< the first is that of short paths
 };
 
 }  // namespace isoatlas

@@ -12,7 +12,7 @@
 namespace isoatlas {
 namespace {
 
-constexpr std::size_t kBlock = 1024;                         // samples whose zones are found together
+constexpr std::size_t kBlock = 256;  // samples whose zones are found together: what they use stays in the first-level cache
 constexpr std::size_t kLimitedBlock = std::size_t{1} << 15;  // where memory is limited: more samples share a page of the tree
 
 std::size_t block_size() { return memory_is_limited() ? kLimitedBlock : kBlock; }
