@@ -29,7 +29,7 @@ ElementMeasures<Number> make_events(MergeTreeView<Number> join, AnalysisArrays<N
     ISOATLAS_DCHECK(every_level_has_one_value<Number>(arrays.contours, arrays.level, arrays.value));
     ByElement<Number, LevelKind> kind = level_kinds<Number>(arrays.contours, arrays.level, arrays.value, delta);
     stop_if_cancelled(context);
-    arrays.tree = criticality_tree<Number>(std::move(group), join, arrays.level, kind);
+    arrays.tree = criticality_tree<Number>(std::move(group), join, arrays.level, kind, context.threads);
     ISOATLAS_DCHECK(every_event_has_its_zone<Number>(arrays.tree, arrays.value));
     stop_if_cancelled(context);
     if (rank != 3) delta = delta_chis(arrays.code, rank);

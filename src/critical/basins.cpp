@@ -39,9 +39,18 @@ void Basins<Number>::forward(std::int64_t slab, std::int64_t first_number) {
     point(range, next);
     // Backwards: pointers to later voxels of the slab find them resolved as far as the slab goes.
     const std::int64_t first = range.z_begin * extent_.slice(), last = range.z_end * extent_.slice();
+    const auto begin = static_cast<Number>(first), count = static_cast<Number>(last - first);
+    const auto stays = [&](Number entry) { return static_cast<Number>(entry - begin) >= count; };  // numbers are beyond all voxels
     std::vector<std::int64_t> path;
     for (std::int64_t v = last - 1; v >= first; --v) {
-        if (!(basin_[v] & kNumber)) compress(v, first, last, path);
+        const Number entry = basin_[v];
+        if (stays(entry)) continue;
+        const Number further = basin_[entry];
+        if (stays(further)) {  // nearly always
+            basin_[v] = further;
+        } else {
+            compress(v, first, last, path);
+        }
     }
 }
 

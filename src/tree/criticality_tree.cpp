@@ -92,20 +92,22 @@ ByElement<Number, ElementIdOf<Number>> join_groups(MergeTreeView<Number> join, B
     const Element outside(value.size());
     for (const Element i : streamed_down<Element>(value.size(), at_random())) {
         const Element next = join[i];
-        bottom[i] = next < outside && value[next] == value[i] ? bottom[next] : i;
+        bottom[i] = next < outside && has_equal(value, i) && value[next] == value[i] ? bottom[next] : i;
     }
     return bottom;
 }
 
 template <class Number>
 CriticalityTree<Number> criticality_tree(ByElement<Number, ElementIdOf<Number>> group, MergeTreeView<Number> join,
-                                         ByElementView<Number, ElementIdOf<Number>> level, ByElementView<Number, LevelKind> kind) {
+                                         ByElementView<Number, ElementIdOf<Number>> level, ByElementView<Number, LevelKind> kind,
+                                         int threads) {
     using Element = ElementIdOf<Number>;
     CriticalityTree<Number> tree;
     ByElement<Number, EventIdOf<Number>> event = number_events<Number>(group, level, kind, tree);
     link_events<Number>(join, group, event, tree);
-    // In place: the bottom of a group comes last in it.
-    for (const Element i : streamed<Element>(group.size(), at_random())) event[i] = event[group[i]];
+    for_each_index(threads, group.size(), [&](std::size_t i) {  // in place: bottoms keep theirs
+        if (const Element x(i); group[x] != x) event[x] = event[group[x]];
+    });
     tree.event_of_element = std::move(event);
     ISOATLAS_CHECK(tree.size() > 0 && tree.is_root(tree.root()));
     return tree;
@@ -156,7 +158,7 @@ EventMeasures<Number> measure_events(const CriticalityTree<Number>& tree, const 
 #define ISOATLAS_CRITICALITY_TREE(Number)                                                                                            \
     template MergeTree<Number> join_groups(MergeTreeView<Number>, ByElementView<Number, double>);                                    \
     template CriticalityTree<Number> criticality_tree(MergeTree<Number>, MergeTreeView<Number>, MergeTreeView<Number>,               \
-                                                      ByElementView<Number, LevelKind>);                                             \
+                                                      ByElementView<Number, LevelKind>, int);                                        \
     template EventMeasures<Number> measure_events(const CriticalityTree<Number>&, const ContourTree<Number>&, MergeTreeView<Number>, \
                                                   ByElementView<Number, LevelKind>, ByElementView<Number, std::int8_t>, int);
 ISOATLAS_CRITICALITY_TREE(std::uint32_t)

@@ -44,7 +44,8 @@ ByElement<Number, ElementIdOf<Number>> join_groups(MergeTreeView<Number> join, B
 /// group: of join_groups. level, kind: of levels.h. Cost: O(n).
 template <class Number>
 CriticalityTree<Number> criticality_tree(ByElement<Number, ElementIdOf<Number>> group, MergeTreeView<Number> join,
-                                         ByElementView<Number, ElementIdOf<Number>> level, ByElementView<Number, LevelKind> kind);
+                                         ByElementView<Number, ElementIdOf<Number>> level, ByElementView<Number, LevelKind> kind,
+                                         int threads = 1);
 
 /// Cost: O(n).
 template <class Number>

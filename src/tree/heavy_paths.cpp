@@ -14,7 +14,7 @@
 namespace isoatlas {
 namespace {
 
-constexpr std::size_t kEventsAhead = 16;  // a parent is fetched so many events before it is needed
+constexpr std::size_t kEventsAhead = 16;  // what lies at random is fetched so many events or maxima before it is needed
 
 /// The largest Value that is not above v.
 template <class Value>
@@ -64,6 +64,15 @@ HeavyPathDecomposition<Number, Value>::HeavyPathDecomposition(const DescendingTr
     IdArray<Maximum, Number> path_of(maxima.size());
     for_each_index(threads, maxima.size(), [&](std::size_t i) {
         const Maximum m(i);
+        if (i + 2 * kEventsAhead < maxima.size()) {
+            prefetch(tree.event_of_element.items().data() +
+                     (tree.event_of_element.empty() ? 0 : maxima[Maximum(i + 2 * kEventsAhead)].index()));
+        }
+        if (i + kEventsAhead < maxima.size()) {
+            const Event ahead = tree.event_of(maxima[Maximum(i + kEventsAhead)]);
+            prefetch(nodes.items().data() + ahead.index());
+            if (!tree.top.empty()) prefetch(tree.top.items().data() + ahead.index());
+        }
         const Event e = tree.event_of(maxima[m]);
         path_of[m] = nodes[e].path;
         if (nodes[e].heavy == e && tree.top_of(e) == maxima[m]) name[path_of[m]] = m;

@@ -16,8 +16,8 @@ ByElement<Number, ElementIdOf<Number>> level_roots(const ContourTree<Number>& tr
     using Element = ElementIdOf<Number>;
     const std::size_t n = value.size();
     UnionFind<Element> sets(n);
-    for (const Element x : streamed<Element>(n + 1, at_random())) {
-        if (tree.has_arc(x) && !has_length(tree, value, x)) sets.join(tree.upper(x), tree.lower(x));
+    for (const Element x : streamed<Element>(n, at_random())) {
+        if (has_equal(value, x) && tree.has_arc(x) && !has_length(tree, value, x)) sets.join(tree.upper(x), tree.lower(x));
     }
     return MergeTree<Number>(std::move(sets).roots());
 }

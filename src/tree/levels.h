@@ -11,6 +11,12 @@ namespace isoatlas {
 template <class Number>
 struct ContourTree;
 
+/// Has another element the value of x? value: descending. Cheaper to ask than where that lies in a tree.
+template <class Number>
+[[nodiscard]] bool has_equal(ByElementView<Number, double> value, ElementIdOf<Number> x) {
+    return (x.index() > 0 && value[x.previous()] == value[x]) || (x.index() + 1 < value.size() && value[x.next()] == value[x]);
+}
+
 /// Does the arc of node x span an interval of values? Arcs to the outside do.
 template <class Number>
 [[nodiscard]] bool has_length(const ContourTree<Number>& tree, ByElementView<Number, double> value, ElementIdOf<Number> x) {
