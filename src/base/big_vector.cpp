@@ -16,10 +16,17 @@
 namespace isoatlas {
 namespace {
 
-constexpr std::size_t kSmall = kHugePage;  // below: the ordinary heap
+constexpr std::size_t kSmall = std::size_t{1} << 16;  // below: the ordinary heap
 
-/// Fresh memory from the system, aligned to huge pages; null when there is none.
+/// What an array takes: whole huge pages where it may have some.
+std::size_t taken_by(std::size_t bytes) { return rounded_up(bytes, bytes < kHugePage ? kPage : kHugePage); }
+
+/// Fresh memory from the system, aligned to huge pages where it may have some; null when there is none.
 char* map_memory(std::size_t size) {
+    if (size < kHugePage) {
+        void* mapped = mmap(nullptr, size, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+        return mapped == MAP_FAILED ? nullptr : static_cast<char*>(mapped);
+    }
     void* mapped = mmap(nullptr, size + kHugePage, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
     if (mapped == MAP_FAILED) return nullptr;
     // Keep the highest aligned part: mappings grow downwards, so this one touches the one before and both can be joined when they are free.
@@ -81,19 +88,23 @@ public:
     }
 
 private:
-    /// Cuts size from the smallest free piece that holds it.
+    /// Cuts size from the smallest free piece that holds it: small ones from its end, so that the rest stays aligned.
     char* reuse(std::size_t size) {
         auto best = free_.end();
         for (auto piece = free_.begin(); piece != free_.end(); ++piece) {
             if (piece->second >= size && (best == free_.end() || piece->second < best->second)) best = piece;
         }
         if (best == free_.end()) return nullptr;
-        char* const memory = best->first;
-        const std::size_t rest = best->second - size;
-        free_.erase(best);
-        if (rest > 0) free_.emplace(memory + size, rest);
         kept_ -= size;
-        return memory;
+        char* const begin = best->first;
+        const std::size_t rest = best->second - size;
+        if (size < kHugePage && rest > 0) {
+            best->second = rest;
+            return begin + rest;
+        }
+        free_.erase(best);
+        if (rest > 0) free_.emplace(begin + size, rest);
+        return begin;
     }
 
     /// Moves pages of free pieces, none of which is large enough, to a new piece: a page that was in use need not be cleared again.
@@ -131,7 +142,7 @@ Pool& pool() {
 void* allocate_in_memory(std::size_t bytes) {
     if (bytes < kSmall) return ::operator new(bytes);
     if (bytes > std::numeric_limits<std::size_t>::max() / 2) throw std::bad_alloc();
-    return pool().take(rounded_up(bytes, kHugePage));
+    return pool().take(taken_by(bytes));
 }
 
 }  // namespace
@@ -143,7 +154,7 @@ void free_big(void* memory, std::size_t bytes) noexcept {
     if (bytes < kSmall) {
         ::operator delete(memory);
     } else {
-        pool().put(static_cast<char*>(memory), rounded_up(bytes, kHugePage));
+        pool().put(static_cast<char*>(memory), taken_by(bytes));
     }
 }
 

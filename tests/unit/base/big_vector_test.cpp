@@ -38,13 +38,30 @@ TEST(BigVector, PiecesThatAreFreeBecomeOne) {
     trim_memory_pool();
 }
 
+// The arrays of a small volume: none is as large as a huge page.
+TEST(BigVector, SmallOnesUseTheMemoryOfALargeOne) {
+    constexpr std::size_t kPart = std::size_t{1} << 16;
+    trim_memory_pool();
+    {
+        const BigVector<std::int64_t> large(16 * kPart, 1);
+    }
+    const std::int64_t before = resident();
+    std::vector<BigVector<std::int64_t>> parts;
+    for (int i = 0; i < 16; ++i) parts.emplace_back(kPart, i);
+    EXPECT_LT(resident() - before, std::int64_t{1} << 20) << "memory that was free was not used";
+    for (int i = 0; i < 16; ++i) EXPECT_EQ(std::accumulate(parts[i].begin(), parts[i].end(), std::int64_t{0}), i * std::ssize(parts[i]));
+    parts.clear();
+    trim_memory_pool();
+}
+
 // Many sizes in turn, every number checked: pages must not be in two places.
 TEST(BigVector, HoldsWhatIsWritten) {
     std::vector<std::pair<BigVector<std::uint64_t>, std::uint64_t>> held;
     std::uint64_t state = 1;
     for (int round = 0; round < 60; ++round) {
         state = state * 6364136223846793005ULL + 1442695040888963407ULL;
-        const std::size_t size = (std::size_t{1} << 18) * (1 + (state >> 33) % 12);
+        const std::size_t unit = std::size_t{1} << (round % 3 == 0 ? 18 : 14);  // those below huge pages are cut from the end of a piece
+        const std::size_t size = unit * (1 + (state >> 33) % 12);
         if (held.size() > 5) held.erase(held.begin() + static_cast<std::ptrdiff_t>((state >> 40) % held.size()));
         held.emplace_back(BigVector<std::uint64_t>(size, state), state);
         for (const auto& [numbers, value] : held) {
