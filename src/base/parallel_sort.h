@@ -26,14 +26,17 @@ public:
         std::sort(sample.begin(), sample.end());
         for (std::size_t b = 1; b < buckets; ++b) splitters_.push_back(sample[b * sample.size() / buckets]);
         // Equal steps over the keys narrow a search down to the splitters within a step.
-        steps_ = static_cast<double>(4 * buckets);
-        first_of_step_.assign(4 * buckets + 2, 0);
+        constexpr std::size_t kSteps = 16;  // a bucket: most steps hold no splitter, and the search ends there
+        steps_ = static_cast<double>(kSteps * buckets);
+        first_of_step_.assign(kSteps * buckets + 2, 0);
         if (splitters_.empty()) return;
         low_ = splitters_.front();
         const double width = splitters_.back() - low_;
         factor_ = width > 0 && steps_ / width < 1e300 ? steps_ / width : 0;
         for (const double splitter : splitters_) ++first_of_step_[step_of(splitter) + 1];
-        for (std::size_t s = 1; s < first_of_step_.size(); ++s) first_of_step_[s] += first_of_step_[s - 1];
+        for (std::size_t s = 1; s < first_of_step_.size(); ++s) {
+            first_of_step_[s] = static_cast<std::uint16_t>(first_of_step_[s] + first_of_step_[s - 1]);
+        }
     }
     [[nodiscard]] std::size_t count() const { return count_; }
     /// Ascends with the key.
@@ -50,7 +53,7 @@ private:
 
     std::size_t count_;
     std::vector<double> splitters_;  // bucket b holds the keys in (splitter[b-1], splitter[b]]
-    std::vector<std::uint32_t> first_of_step_;
+    std::vector<std::uint16_t> first_of_step_;
     double steps_ = 0, low_ = 0, factor_ = 0;
 };
 

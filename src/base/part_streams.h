@@ -116,40 +116,38 @@ public:
     /// first: where each part begins.
     PartWriters(std::span<T> all, std::span<const std::size_t> first) : buffered_(is_scratch(all.data())) {
         items_ = buffered_items<T>(first.size());
-        parts_.reserve(first.size());
-        for (const std::size_t item : first) parts_.push_back({all.data() + item, {}});
+        place_.reserve(first.size());
+        for (const std::size_t item : first) place_.push_back(all.data() + item);
+        if (buffered_) buffer_.resize(first.size());
     }
     void put(std::size_t p, const T& item) {
-        Part& part = parts_[p];
         if (!buffered_) {
-            *part.place++ = item;
+            *place_[p]++ = item;
             return;
         }
-        if (part.buffer.size() == items_) flush(part);
-        if (part.buffer.empty()) part.buffer.reserve(items_);
-        part.buffer.push_back(item);
+        std::vector<T>& buffer = buffer_[p];
+        if (buffer.size() == items_) flush(p);
+        if (buffer.empty()) buffer.reserve(items_);
+        buffer.push_back(item);
     }
     /// After the last item: nothing is in the array before.
     void finish() {
-        for (Part& part : parts_) flush(part);
+        for (std::size_t p = 0; p < buffer_.size(); ++p) flush(p);
     }
 
 private:
-    struct Part {
-        T* place;  ///< where the next item goes, or the first one of the buffer
-        std::vector<T> buffer;
-    };
-
-    void flush(Part& part) {
-        if (part.buffer.empty()) return;
-        write_scratch(part.place, std::as_bytes(std::span(part.buffer)));
-        part.place += part.buffer.size();
-        part.buffer.clear();
+    void flush(std::size_t p) {
+        if (buffer_[p].empty()) return;
+        write_scratch(place_[p], std::as_bytes(std::span(buffer_[p])));
+        place_[p] += buffer_[p].size();
+        buffer_[p].clear();
     }
 
     bool buffered_;
     std::size_t items_ = 0;
-    std::vector<Part> parts_;
+    std::vector<T*>
+        place_;  // per part, where the next item goes, or the first one of the buffer: few bytes, as they are accessed at random
+    std::vector<std::vector<T>> buffer_;
 };
 
 }  // namespace isoatlas
