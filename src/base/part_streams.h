@@ -145,8 +145,8 @@ private:
 
     bool buffered_;
     std::size_t items_ = 0;
-    std::vector<T*>
-        place_;  // per part, where the next item goes, or the first one of the buffer: few bytes, as they are accessed at random
+    // Of each part: where the next item goes, or the first one of its buffer. Few bytes, as they are accessed at random.
+    std::vector<T*> place_;
     std::vector<std::vector<T>> buffer_;
 };
 
