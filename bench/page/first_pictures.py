@@ -43,9 +43,10 @@ def run(command, folder):
 
 def pictures_of(page):
     data = json.loads(re.search(r'id="atlas-data" type="application/json">(.*?)</script>', page.read_text(), re.S)[1])
-    if not data["complete"] or any(entry["picture"] is None for entry in data["entries"]):
+    cards = data["labels"] if "labels" in data else data["entries"]
+    if not data["complete"] or any(card["picture"] is None for card in cards):
         sys.exit(f"{page}: pictures are missing")
-    return len(data["entries"]), sum(entry["mesh"] is not None for entry in data["entries"])
+    return len(cards), sum(card["mesh"] is not None for card in cards)
 
 
 def measure(program, volume, path, pairs):
@@ -76,8 +77,8 @@ def main():
         records.append(measure(arguments.program, volume, file_of(volume, arguments.program, arguments), arguments.pairs))
         print("{volume}: {pictures} pictures; store {store, s:.2f} s, first five {five pictures, s:.2f} s, all {all, s:.2f} s".format(
             **records[-1]), flush=True)
-    if arguments.json:
-        Path(arguments.json).write_text(json.dumps({"pages": records}, indent=1))
+        if arguments.json:  # now: what is measured stays when a later volume fails
+            Path(arguments.json).write_text(json.dumps({"pages": records}, indent=1))
 
 
 if __name__ == "__main__":
