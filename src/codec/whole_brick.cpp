@@ -24,7 +24,7 @@ static_assert(kAll == static_cast<std::size_t>(kBrickSamples));
 template <class N>
 struct Vector {
     static constexpr std::size_t kSize = 16 / sizeof(N);
-    typedef N Type [[gnu::vector_size(16)]];
+    using Type [[gnu::vector_size(16)]] = N;
 
     [[gnu::always_inline]] static Type at(const N* numbers) {
         Type v;

@@ -69,11 +69,11 @@ private:
     }
 };
 
-/// Removes leaves; what is left when none is left is a cycle. Every node but the last must have an arc. leaves: degrees, consumed.
+/// Removes leaves; what is left when none is left is a cycle. Every node but the last must have an arc. leaves: degrees.
 template <class Number>
-Verdict has_no_cycle(const ContourTree<Number>& tree, Degrees<Number> leaves) {
+Verdict has_no_cycle(const ContourTree<Number>& tree, const Degrees<Number>& leaves) {
     using Element = ElementIdOf<Number>;
-    ByElement<Number, std::uint8_t>& arcs = leaves.degree;
+    ByElement<Number, std::uint8_t> arcs(leaves.degree.size());
     const Element outside = tree.outside();
     for (const Element x : arcs.ids()) arcs[x] = static_cast<std::uint8_t>(leaves.above(x) + leaves.below(x));
     for_chains<Element>(
@@ -131,7 +131,7 @@ Verdict is_contour_tree(const ContourTree<Number>& tree) {
         if (tree.degree[x] != counted.degree[x]) return violated("node", x, "has another number of arcs than its degree");
     }
     if (tree.nodes() > 1 && counted.above(outside) != 1) return Verdict(text(counted.above(outside)) + " arcs run to the outside");
-    return has_no_cycle(tree, std::move(counted));
+    return has_no_cycle(tree, counted);
 }
 
 template <class Number>
