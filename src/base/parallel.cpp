@@ -27,7 +27,11 @@ tbb::task_arena& arena_of(int threads) {
     static std::mutex lock;
     const std::lock_guard hold(lock);
     std::unique_ptr<tbb::task_arena>& arena = (*arenas)[std::min(threads, tbb::info::default_concurrency())];
-    if (!arena) arena = std::make_unique<tbb::task_arena>(std::min(threads, tbb::info::default_concurrency()));
+    if (!arena) {
+        auto made = std::make_unique<tbb::task_arena>(std::min(threads, tbb::info::default_concurrency()));
+        made->initialize();  // where memory is missing it throws, and every later call of that arena would wait without end
+        arena = std::move(made);
+    }
     return *arena;
 }
 

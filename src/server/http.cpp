@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cctype>
+#include <new>
 
 #include "base/memory_limit.h"
 #include "base/private_file.h"
@@ -142,7 +143,8 @@ void Server::open(const Atlas& atlas, const Atlas* low) { data_->service.store_s
 void Server::prepare(const Context& context) {
     try {
         data_->service.prepare(context);
-    } catch (const Error&) {  // the client receives the error
+    } catch (const Error&) {           // the client receives the error
+    } catch (const std::bad_alloc&) {  // a request tries again
     }
 }
 void Server::report_progress(const BuildState& state) { data_->service.store_state().report_progress(state); }

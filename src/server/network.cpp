@@ -5,7 +5,9 @@
 
 #include <array>
 #include <atomic>
+#include <cstddef>
 #include <list>
+#include <new>
 
 #include <boost/asio/io_context.hpp>
 #include <boost/asio/ip/tcp.hpp>
@@ -40,8 +42,41 @@ struct Connection {
     std::optional<HeadReader> reader{};
     bool leaves = false;      ///< received bytes are discarded
     std::size_t drained = 0;  ///< bytes discarded
+    /// Memory of the handler at the end of its response, which must be told even where no memory is left.
+    alignas(std::max_align_t) std::array<std::byte, 256> reserved{};
 };
 using ConnectionPointer = std::shared_ptr<Connection>;
+
+/// Gives the reserved memory of a connection, to one handler at a time.
+template <class T>
+struct ReservedMemory {
+    using value_type = T;
+    Connection* connection;
+
+    explicit ReservedMemory(Connection* of) : connection(of) {}
+    template <class Other>
+    explicit(false) ReservedMemory(const ReservedMemory<Other>& other) : connection(other.connection) {}
+    [[nodiscard]] T* allocate(std::size_t count) const {
+        if (count * sizeof(T) > connection->reserved.size()) throw std::bad_alloc();
+        return reinterpret_cast<T*>(connection->reserved.data());
+    }
+    void deallocate(T*, std::size_t) const {}
+    template <class Other>
+    bool operator==(const ReservedMemory<Other>& other) const {
+        return connection == other.connection;
+    }
+};
+
+/// Called on the thread of the network after a response.
+template <class Call>
+struct AfterResponse {
+    using allocator_type = ReservedMemory<std::byte>;
+    ConnectionPointer connection;
+    Call call;
+
+    [[nodiscard]] allocator_type get_allocator() const { return allocator_type(connection.get()); }
+    void operator()() const { call(connection); }
+};
 
 /// Closes a connection, which may be closed already.
 void ignore(const error_code&) {}
@@ -193,9 +228,17 @@ private:
         if (const std::optional<std::string> answer = answers_.at_the_door(head)) return refuse(connection, *answer);
         if (std::ssize(busy_) >= kMaxAtOnce) return refuse(connection, answers_.refusal(503));
         move(*connection, busy_);
-        if (!workers_.post([this, connection, head] { answer(connection, head); })) {
-            move(*connection, strangers_);
-            refuse(connection, answers_.refusal(503));
+        if (is_handed_over(connection, head)) return;
+        move(*connection, strangers_);
+        refuse(connection, answers_.refusal(503));
+    }
+
+    /// False: there is no thread or no memory for its response.
+    bool is_handed_over(const ConnectionPointer& connection, const RequestHead& head) {
+        try {
+            return workers_.post([this, connection, head] { answer(connection, head); });
+        } catch (const std::bad_alloc&) {
+            return false;
         }
     }
 
@@ -225,14 +268,8 @@ private:
             goes_on = answers_.answer(head, Peer(connection->socket.native_handle()));
         } catch (const std::exception&) {  // to this connection only
         }
-        while (!ended_) {
-            try {
-                asio::post(io_, [this, connection, goes_on] { answered(connection, goes_on); });
-                return;
-            } catch (const std::bad_alloc&) {
-                (void)::sched_yield();
-            }
-        }
+        const auto then = [this, goes_on](const ConnectionPointer& of) { answered(of, goes_on); };
+        asio::post(io_, AfterResponse<decltype(then)>{connection, then});
     }
 
     void answered(const ConnectionPointer& connection, bool goes_on) {

@@ -1,6 +1,7 @@
 // A server and its client in one program: what is asked is answered, what cannot be answered is refused with the error of the service.
 #include <gtest/gtest.h>
 
+#include <new>
 #include <thread>
 
 #include "isoatlas/build.h"
@@ -53,6 +54,13 @@ TEST_F(HttpTest, AnswersAndRefusals) {
     EXPECT_EQ(kind_of([&] { return ask_server("http://127.0.0.2:1/?token=1", "/api/atlas"); }), ErrorKind::usage);
     EXPECT_EQ(kind_of([&] { return Server({.port = server_.port()}); }), ErrorKind::resource);
     EXPECT_EQ(kind_of([&] { return Server({.token = "too short"}); }), ErrorKind::usage);
+}
+
+TEST_F(HttpTest, MemoryThatIsMissingWhileItPreparesEndsNothing) {
+    Context without;
+    without.cancelled = []() -> bool { throw std::bad_alloc(); };
+    EXPECT_NO_THROW(server_.prepare(without));
+    EXPECT_EQ(ask_server(with_token(server_.token()), "/api/atlas").type, "application/json");
 }
 
 TEST(Http, AServerThatIsStoppedBeforeItRunsDoesNot) {
