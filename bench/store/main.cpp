@@ -2,7 +2,7 @@
 //
 //   bench_store build VOLUME STORE [--cache FOLDER] [--data FOLDER] [--threads N] [--repeats N] [--analysis]   VOLUME: as in bench_engine
 //   bench_store surface STORE TAU [--threads N] [--repeats N]         the whole isosurface: warm, again, cold
-//   bench_store steps STORE TAU [--threads N] [--repeats N]           steps of a Navigator by 0.5 % of the range, up from TAU
+//   bench_store steps STORE TAU [--threads N] [--repeats N]           steps of a Navigator by 0.5 % of the range, from TAU to its middle
 //   bench_store object STORE TAU [--threads N] [--repeats N] [--voxels N]   one object of about that many voxels (1000)
 //   bench_store check STORE TAU VOLUME [--cache FOLDER] [--data FOLDER]   is the surface that of the volume, byte for byte?
 //
@@ -168,18 +168,19 @@ ordered_json surface(const Arguments& arguments) {
     return result;
 }
 
-/// Steps in one direction, as a key that is held down makes them: each meets bricks that none before has read.
+/// Steps towards the middle of the range, as a key that is held down makes them: each meets bricks that none before has read.
 ordered_json measure_steps(const Arguments& arguments) {
     const isoatlas::SurfaceOptions options = without_ids();
     const Atlas walked(arguments.word(1)), fresh(arguments.word(1));
     isoatlas::Navigator navigator(walked, options);
     const std::array<double, 2> range = walked.range();
     double tau = arguments.tau();
+    const double step = (tau < 0.5 * (range[0] + range[1]) ? 0.005 : -0.005) * (range[1] - range[0]);
     navigator.go_to(tau, arguments.context);
     (void)fresh.extract(tau, options, arguments.context);  // what a store reads once
     ordered_json result{{"step", ordered_json::array()}, {"fresh", ordered_json::array()}};
     for (int i = 0; i < arguments.repeats; ++i) {
-        tau += 0.005 * (range[1] - range[0]);
+        tau += step;
         result["step"].push_back(seconds_of([&] { navigator.go_to(tau, arguments.context); }));
         fresh.clear_cache();
         result["fresh"].push_back(seconds_of([&] { (void)fresh.extract(tau, options, arguments.context); }));

@@ -43,27 +43,18 @@ public:
         const std::lock_guard lock(mutex_);
         const Threshold<T> threshold = threshold_for<T>(tau);
         const std::optional<double> before = std::exchange(kept.tau, tau);
-        if (!kept.level) {
-            Classified all = classify_part(BrickPart(grid_), threshold, context, query);
-            kept.beside = BrickFlags(all.level.bricks.classes.size(), 0);
-            for (const BrickId b : all.needed) kept.beside[b] = all.level.bricks.classes[b] != BrickClass::divided;
-            kept.level = std::move(all.level);
-            kept.sides = std::move(all.sides);
-            return grid_.count();
-        }
-        auto& [high, bricks] = *kept.level;
-        bricks = bricks_of(BrickPart(grid_), threshold, context.threads);
-        high.set_candidates(bricks);
-        hold(divided_bricks(BrickPart(grid_), bricks), context, query);
+        if (!kept.level) return classify_anew(kept, threshold, context, query);
+        LevelBricks bricks = bricks_of(BrickPart(grid_), threshold, context.threads);
+        const std::vector<BrickId> divided = divided_bricks(BrickPart(grid_), bricks);
         const BrickFlags changed = bricks_between(threshold_for<T>(*before), threshold);
-        refill(changed, bricks.classes, threshold.min, context.threads, kept);
-        const BrickFlags near = with_halo(grid_, changed);
-        const BrickFlags touching = touching_others(grid_, bricks.classes);
-        for_bricks(grid_, context.threads, [&](BrickId b) {
-            if (near[b]) kept.beside[b] = touching[b] && touches_surface(high, bricks, kept.sides, b);
-        });
-        hold(flagged(kept.beside), context, query);
-        return std::ranges::count(changed.items(), std::uint8_t{1});
+        const std::int64_t changes = std::ranges::count(changed.items(), std::uint8_t{1});
+        if (changes > std::ssize(divided)) return classify_anew(kept, threshold, context, query);  // less work than each change
+        auto& high = kept.level->high;
+        high.set_candidates(bricks);
+        kept.level->bricks = std::move(bricks);
+        hold(divided, context, query);
+        update(kept, changed, threshold, context, query);
+        return changes;
     }
 
     void add_extremes(LevelBricks& bricks, const Context& context) const override {
@@ -235,6 +226,27 @@ private:
         hold(beside, context, query);
         result.needed.insert(result.needed.end(), beside.begin(), beside.end());
         return result;
+    }
+
+    std::int64_t classify_anew(KeptLevel& kept, const Threshold<T>& threshold, const Context& context, LevelQuery& query) {
+        Classified all = classify_part(BrickPart(grid_), threshold, context, query);
+        kept.beside = BrickFlags(all.level.bricks.classes.size(), 0);
+        for (const BrickId b : all.needed) kept.beside[b] = all.level.bricks.classes[b] != BrickClass::divided;
+        kept.level = std::move(all.level);
+        kept.sides = std::move(all.sides);
+        return grid_.count();
+    }
+
+    /// The samples of the divided bricks are present.
+    void update(KeptLevel& kept, const BrickFlags& changed, const Threshold<T>& threshold, const Context& context, LevelQuery& query) {
+        const auto& [high, bricks] = *kept.level;
+        refill(changed, bricks.classes, threshold.min, context.threads, kept);
+        const BrickFlags near = with_halo(grid_, changed);
+        const BrickFlags touching = touching_others(grid_, bricks.classes);
+        for_bricks(grid_, context.threads, [&](BrickId b) {
+            if (near[b]) kept.beside[b] = touching[b] && touches_surface(high, bricks, kept.sides, b);
+        });
+        hold(flagged(kept.beside), context, query);
     }
 
     /// Indices in the whole grid.

@@ -1,7 +1,8 @@
 #include "catalogue/count_columns.h"
 
 #include <algorithm>
-#include <ranges>
+#include <optional>
+#include <utility>
 
 #include "isoatlas/simplify.h"
 
@@ -19,40 +20,60 @@ CountColumn column_of(const SpectrumInterval& interval, double low, double high)
     return {low, high, interval.all, interval.all, interval.significant, interval.significant};
 }
 
-/// Ascending, with equal neighbours joined.
-std::vector<SpectrumInterval> clipped_intervals(std::span<const SpectrumInterval> intervals, double low, double high) {
-    std::vector<SpectrumInterval> inside;
-    for (const SpectrumInterval& whole : std::views::reverse(intervals)) {
-        const SpectrumInterval clipped{std::max(whole.low, low), std::min(whole.high, high), whole.all, whole.significant};
-        if (!(clipped.high > clipped.low)) continue;
-        if (!inside.empty() && inside.back().all == clipped.all && inside.back().significant == clipped.significant) {
-            inside.back().high = clipped.high;
-        } else {
-            inside.push_back(clipped);
-        }
+/// The parts of intervals in (low, high], ascending; inner ones of events with equal values are empty.
+class Clipped {
+public:
+    Clipped(std::span<const SpectrumInterval> intervals, double low, double high) : intervals_(intervals), low_(low), high_(high) {
+        while (!intervals_.empty() && !is_inside(intervals_.back())) intervals_ = intervals_.first(intervals_.size() - 1);
+        while (!intervals_.empty() && !is_inside(intervals_.front())) intervals_ = intervals_.subspan(1);
     }
-    return inside;
+    [[nodiscard]] std::size_t size() const { return intervals_.size(); }
+    [[nodiscard]] SpectrumInterval operator[](std::size_t i) const {
+        const SpectrumInterval& whole = intervals_[intervals_.size() - 1 - i];
+        return {std::max(whole.low, low_), std::min(whole.high, high_), whole.all, whole.significant};
+    }
+
+private:
+    [[nodiscard]] bool is_inside(const SpectrumInterval& whole) const { return std::min(whole.high, high_) > std::max(whole.low, low_); }
+
+    std::span<const SpectrumInterval> intervals_;
+    double low_, high_;
+};
+
+/// With equal neighbours joined; nullopt: there are more than `most`.
+std::optional<std::vector<CountColumn>> joined_columns(const Clipped& inside, std::int64_t most) {
+    std::vector<CountColumn> result;
+    for (std::size_t i = 0; i < inside.size(); ++i) {
+        const SpectrumInterval interval = inside[i];
+        if (!(interval.high > interval.low)) continue;
+        if (!result.empty() && result.back().min == interval.all && result.back().min_significant == interval.significant) {
+            result.back().high = interval.high;
+            continue;
+        }
+        if (std::ssize(result) == most) return std::nullopt;
+        result.push_back(column_of(interval, interval.low, interval.high));
+    }
+    return result;
 }
 
 }  // namespace
 
 std::vector<CountColumn> count_columns(std::span<const SpectrumInterval> intervals, double low, const AxisScale& scale,
                                        std::int64_t columns) {
-    const std::vector<SpectrumInterval> inside = clipped_intervals(intervals, low, scale.high);
+    const Clipped inside(intervals, low, scale.high);
+    if (std::optional<std::vector<CountColumn>> all = joined_columns(inside, columns)) return std::move(*all);
     std::vector<CountColumn> result;
-    if (static_cast<std::int64_t>(inside.size()) <= columns) {
-        for (const SpectrumInterval& interval : inside) result.push_back(column_of(interval, interval.low, interval.high));
-        return result;
-    }
-    const double begin = scale.position(inside.front().low), end = scale.position(inside.back().high);
+    const double lowest = inside[0].low, highest = inside[inside.size() - 1].high;
+    const double begin = scale.position(lowest), end = scale.position(highest);
     std::size_t first = 0;
-    double left = inside.front().low;
+    double left = lowest;
     for (std::int64_t k = 1; k <= columns; ++k) {
         const double part = static_cast<double>(k) / static_cast<double>(columns);
-        const double right = k == columns ? inside.back().high : scale.tau(begin + (end - begin) * part);
+        const double right = k == columns ? highest : scale.tau(begin + (end - begin) * part);
         while (first + 1 < inside.size() && inside[first].high <= left) ++first;
         CountColumn column = column_of(inside[first], left, right);
         for (std::size_t i = first; i < inside.size() && inside[i].low < right; ++i) {
+            if (!(inside[i].high > inside[i].low)) continue;
             widen(column.min, column.max, inside[i].all);
             widen(column.min_significant, column.max_significant, inside[i].significant);
         }
@@ -63,8 +84,10 @@ std::vector<CountColumn> count_columns(std::span<const SpectrumInterval> interva
 }
 
 std::vector<SpectrumInterval> branch_intervals(const Analysis& analysis, EventId branch_top, double merges) {
+    const std::vector<EventId> events = events_of(analysis, branch_top, merges);
     std::vector<SpectrumInterval> intervals;
-    for (const EventId id : events_of(analysis, branch_top, merges)) {
+    intervals.reserve(events.size());
+    for (const EventId id : events) {
         const Event event = analysis.event(id);
         intervals.push_back({event.zone.tau_low, event.value, {1, event.contours, event.b1, event.b2}, {}});
     }

@@ -5,6 +5,7 @@
 #include <limits>
 #include <optional>
 #include <unordered_map>
+#include <unordered_set>
 
 #include "atlas/access.h"
 #include "base/cancel.h"
@@ -67,14 +68,10 @@ private:
     /// Branches of the table, and the first ones by rank.
     void add_object_branches(const ObjectTable& table) {
         const std::span<const BranchInfo> all = hierarchy_.branches();
-        std::vector<bool> is_significant(all.size(), false), is_shown(all.size(), false);
+        std::vector<bool> is_significant(all.size(), false);
         for (const BranchId i : hierarchy_.significant()) is_significant[i.index()] = true;
-        std::unordered_map<EventId, std::size_t> of_top;
-        for (std::size_t i = 0; i < all.size(); ++i) of_top.emplace(all[i].top, i);
-        std::unordered_map<EventId, std::int64_t> number_of_top;  // of the first entry
-        for (const ObjectEntry& entry : found_.objects.entries)
-            number_of_top.emplace(entry.branch_top, &entry - found_.objects.entries.data() + 1);
-        for (const ObjectEntry& entry : table.entries) is_shown[of_top.at(entry.branch_top)] = true;
+        std::unordered_set<EventId> shown;
+        for (const ObjectEntry& entry : table.entries) shown.insert(entry.branch_top);
         std::vector<std::int64_t> joined(all.size(), 0);
         for (const BranchInfo& b : all) {
             if (b.parent.exists()) ++joined[b.parent.index()];
@@ -82,14 +79,14 @@ private:
         std::vector<std::int64_t> place(all.size(), -1);
         std::int64_t others = 0;
         for (std::size_t i = 0; i < all.size(); ++i) {
-            if (!is_shown[i] && (i > 0 && others++ >= kOthers)) continue;
             const BranchInfo& b = all[i];
+            const bool is_shown = shown.contains(b.top);
+            if (!is_shown && (i > 0 && others++ >= kOthers)) continue;
             place[i] = static_cast<std::int64_t>(contents_.branches.size());
             place_of_top_.emplace(b.top, place[i]);
-            const auto number = number_of_top.find(b.top);
             contents_.branches.push_back({.polarity = polarity_,
                                           .id = b.id,
-                                          .number = number == number_of_top.end() ? 0 : number->second,
+                                          .number = 0,
                                           .rank = static_cast<std::int64_t>(i),
                                           .appears = b.appears,
                                           .merges = b.merges,
@@ -99,14 +96,25 @@ private:
                                           .measure = b.measure,
                                           .joined = joined[i],
                                           .is_significant = is_significant[i],
-                                          .shape = is_shown[i] ? shape_of(b) : std::vector<CountColumn>{},
+                                          .shape = is_shown ? shape_of(b) : std::vector<CountColumn>{},
                                           .top = b.top});
-            if (!is_shown[i]) continue;
+            if (!is_shown) continue;
             for (const EventId event : events_of(analysis_, b.top, b.merges)) branch_of_event_[event.index()] = place[i];
         }
+        number_branches();
         for (PageBranch& b : contents_.branches) {
             while (b.parent >= 0 && place[b.parent] < 0) b.parent = all[b.parent].parent.number();
             if (b.parent >= 0) b.parent = place[b.parent];
+        }
+    }
+    /// By their first entries.
+    void number_branches() {
+        const std::vector<ObjectEntry>& entries = found_.objects.entries;
+        for (std::size_t i = 0; i < entries.size(); ++i) {
+            const auto place = place_of_top_.find(entries[i].branch_top);
+            if (place == place_of_top_.end()) continue;
+            PageBranch& branch = contents_.branches[static_cast<std::size_t>(place->second)];
+            if (branch.number == 0) branch.number = static_cast<std::int64_t>(i) + 1;
         }
     }
     std::vector<CountColumn> shape_of(const BranchInfo& b) const {

@@ -23,6 +23,19 @@ LevelCounts counts_of(const AnalysisArrays<Id>& arrays, EventIdOf<Id> event, int
     return counts;
 }
 
+/// Of different events.
+template <class Id>
+std::size_t count_values(const AnalysisArrays<Id>& arrays) {
+    std::size_t count = 0;
+    double last = std::numeric_limits<double>::quiet_NaN();
+    for (std::size_t e = 0; e < arrays.tree.size(); ++e) {
+        const double value = value_of(arrays, EventIdOf<Id>(e));
+        count += value != last;
+        last = value;
+    }
+    return count;
+}
+
 void add(LevelCounts& counts, const LevelCounts& more, std::int64_t times) {
     counts.objects += times * more.objects, counts.contours += times * more.contours;
     counts.tunnels += times * more.tunnels, counts.cavities += times * more.cavities;
@@ -56,6 +69,7 @@ template <class Id>
 std::vector<SpectrumInterval> count_intervals(const AnalysisArrays<Id>& arrays, int rank, const std::vector<bool>& significant) {
     const CriticalityTree<Id>& tree = arrays.tree;
     std::vector<SpectrumInterval> intervals;
+    intervals.reserve(count_values(arrays));  // a growing vector is held twice
     ByEvent<Id, Id> place(tree.size());
     for (const EventIdOf<Id> e : place.ids()) {
         const double value = value_of(arrays, e);

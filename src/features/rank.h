@@ -8,8 +8,8 @@ namespace isoatlas {
 
 struct VolumeView;
 
-/// Cost: the sublevel tree (features/cavity_candidates.h), and four passes over samples and zones in order, one voxel after the other; 60
-/// bytes an event.
+/// Cost: beside each other the sublevel tree with its branches (features/cavity_candidates.h) and those of the superlevel tree, each some
+/// passes over samples and zones in order, one voxel after the other; 60 bytes an event of both trees.
 [[nodiscard]] ObjectTable rank_objects(const VolumeView& volume, const Analysis& analysis, const RankOptions& options,
                                        const Context& context);
 

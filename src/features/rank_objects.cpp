@@ -1,8 +1,10 @@
 // The table of significant objects: gate, isovalues, sizes (docs/theory/7-which-objects-matter.md).
 #include <algorithm>
 #include <limits>
+#include <optional>
 
 #include "analysis/analysis_data.h"
+#include "base/parallel.h"
 #include "base/streamed.h"
 #include "features/border_contact.h"
 #include "features/cavity_walls.h"
@@ -27,14 +29,17 @@ public:
           tree_(superlevel_tree<Id>(arrays, values_)),
           branches_(decompose_branches(tree_, sum_zones(tree_, volume_))) {}
 
-    /// around: as for wall_isovalues().
-    [[nodiscard]] ObjectTable table(const NoiseModel& noise, const RankOptions& options, const CavityCandidates<Id>& cavities,
+    [[nodiscard]] CandidateTable candidates(const NoiseModel& noise, const RankOptions& options) const {
+        return find_candidates(volume_, tree_, branches_, noise, options);
+    }
+
+    /// chosen: of candidates(). around: as for wall_isovalues().
+    [[nodiscard]] ObjectTable table(const NoiseModel& noise, CandidateTable chosen, const CavityCandidates<Id>& cavities,
                                     const std::vector<EventId>& around_cavities) const {
         ObjectTable table;
         table.noise = noise.sigma;
         for (const BranchId i : streamed<BranchId>(branches_.branch.size(), {sizeof(Branch)}))
             table.branches += branches_.branch[i].appears > branches_.branch[i].merges;
-        CandidateTable chosen = find_candidates(volume_, tree_, branches_, noise, options);
         const std::vector<std::int64_t> around = closest_around(tree_, chosen.rows);
         const std::vector<BranchIsovalue> walls = wall_isovalues(volume_, arrays_, tree_, branches_, chosen, cavities, around_cavities);
         chosen.isovalues.insert(chosen.isovalues.end(), walls.begin(), walls.end());
@@ -84,9 +89,16 @@ auto with_tables(const VolumeView& volume, const Analysis& analysis, const RankO
     return analysis.data().visit([&]<class Id>(const IndexedArrays<Id>& held) {
         const AnalysisArrays<Id>& arrays = held.arrays;
         if (arrays.zone.empty()) throw Error(ErrorKind::usage, {.what = "ranking objects needs an analysis with zones"});
-        const CavityCandidates<Id> cavities = make_cavity_candidates(volume, arrays, noise, {.top = 0}, context);
-        const Ranking<Id> ranking(volume, arrays, analysis.extent().rank == 3);
-        return use(arrays, noise, cavities, ranking.table(noise, options, cavities, objects_around(analysis, arrays, cavities)));
+        CavityCandidates<Id> cavities;
+        std::optional<Ranking<Id>> ranking;
+        CandidateTable chosen;
+        run_both(
+            context.threads, [&] { cavities = make_cavity_candidates(volume, arrays, noise, {.top = 0}, context); },
+            [&] {
+                ranking.emplace(volume, arrays, analysis.extent().rank == 3);
+                chosen = ranking->candidates(noise, options);
+            });
+        return use(arrays, noise, cavities, ranking->table(noise, std::move(chosen), cavities, objects_around(analysis, arrays, cavities)));
     });
 }
 
