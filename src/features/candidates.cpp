@@ -24,6 +24,9 @@ constexpr IsovalueReason kOutline = IsovalueReason::outline;
 
 template <class Id>
 class Rows {
+    using Slot = Id;  ///< of a branch among those that are kept
+    static constexpr Slot kNoSlot = std::numeric_limits<Slot>::max();
+
 public:
     Rows(const VolumeView& volume, const ObjectTree<Id>& tree, const BranchDecomposition& branches)
         : volume_(volume), tree_(tree), branches_(branches), axis_(axis_scale(volume), tree.sign) {}
@@ -68,22 +71,29 @@ private:
     /// Histograms along the kept branches: own voxels by height, whole merged branches at the height where they merge.
     [[nodiscard]] std::vector<BranchHistogram> histograms(const std::vector<BranchId>& kept) const {
         const bool integer = !is_floating(volume_.info->type);
-        IdArray<BranchId, std::int64_t> slot(filled(branches_.branch.size(), std::int64_t{-1}));
+        IdArray<BranchId, Slot> slot(filled(branches_.branch.size(), kNoSlot));
         std::vector<BranchHistogram> result;
         for (const std::size_t k : streamed(kept.size(), at_random(2))) {
             const Branch& b = branches_.branch[kept[k]];
-            slot[kept[k]] = static_cast<std::int64_t>(k);
+            slot[kept[k]] = static_cast<Slot>(k);
             result.emplace_back(kept[k], std::max(b.merges, lowest()), b.appears, integer, axis_);
         }
-        tree_.for_heights(volume_, at_random(2), [&](VoxelId v, double height) {
-            const std::int64_t k = slot[branches_.of_event[tree_.zone(v)]];
-            if (k >= 0) result[k].add(height, 1);
+        const IdArray<EventId, Slot> of_event = slots_of_events(slot);
+        tree_.for_heights(volume_, at_random(), [&](VoxelId v, double height) {
+            const Slot k = of_event[tree_.zone(v)];
+            if (k != kNoSlot) result[k].add(height, 1);
         });
         for (const BranchId i : streamed<BranchId>(branches_.branch.size(), {sizeof(Branch) + at_random().bytes})) {
             const Branch& b = branches_.branch[i];
-            const std::int64_t k = i == kMainBranch ? -1 : slot[b.parent];
-            if (k >= 0) result[k].add(b.merges, static_cast<double>(b.voxels));
+            const Slot k = i == kMainBranch ? kNoSlot : slot[b.parent];
+            if (k != kNoSlot) result[k].add(b.merges, static_cast<double>(b.voxels));
         }
+        return result;
+    }
+    /// One access a voxel instead of two far ones.
+    [[nodiscard]] IdArray<EventId, Slot> slots_of_events(const IdArray<BranchId, Slot>& slot) const {
+        IdArray<EventId, Slot> result(tree_.size());
+        for (const EventId e : streamed<EventId>(tree_.size(), at_random())) result[e] = slot[branches_.of_event[e]];
         return result;
     }
 
