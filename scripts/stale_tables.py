@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 """Fails when code has changed much since its table in docs/performance.md was measured: stale_tables.py; stale_tables.py --self-test.
 
-A table is stale when more than MOST commits since its own touch the code that it measures. `make bench` measures all of them again."""
+A table is stale when more than MOST commits since its own touch the code that it measures. It must have a row for every kind of volume;
+that one kind of processor is missing is said alone. `make bench` measures all of them again."""
 import pathlib
 import re
 import subprocess
@@ -12,12 +13,16 @@ ROOT = pathlib.Path(__file__).resolve().parent.parent
 ENGINE = "src/field src/critical src/tree src/zones src/analysis src/persistence".split()
 SURFACES = "src/field src/levelset src/mesh".split()
 STORES = SURFACES + "src/codec src/bricks src/census src/store src/atlas".split()
-PICTURES, PAGES = ["src/render"], "src/catalogue src/page src/preview src/render".split()
+PICTURES, PAGES = ["src/render"], "src/features src/catalogue src/page src/preview src/render".split()
 MEASURED = {
     "engine": ENGINE, "phases": ENGINE, "scale-analysis": ENGINE, "extract": SURFACES, "scale-extract": SURFACES,
-    "store-builds": STORES + ENGINE, "store-surfaces": STORES, "store-objects": STORES, "scale-stores": STORES + ENGINE,
+    "store-builds": STORES + ENGINE + ["src/features"], "store-surfaces": STORES, "store-objects": STORES, "scale-stores": STORES + ENGINE + ["src/features"],
     "render": PICTURES, "scale-render": PICTURES, "pages": PAGES, "scale-pages": PAGES,
 }
+ROWS = {  # of the tables that list volumes
+    "smooth": "smooth-", "noisy": "noisy-", "white": "white-", "CT": "bonsai", "MR": "seg3d_mr", "EM": "emd3001", "labels": "frog_labels",
+}
+LISTS = "engine phases extract store-builds store-surfaces store-objects render pages".split()
 TABLE = re.compile(r"<!-- ([\w-]+):begin -->\n(.*?)<!-- \1:end -->", re.S)
 
 
@@ -41,6 +46,16 @@ def problems(found, count):
     return said
 
 
+def without_rows(page):
+    """Kinds of volumes that a table does not have."""
+    said = []
+    for mark, text in TABLE.findall(page):
+        lacks = [kind for kind, name in ROWS.items() if mark in LISTS and f"\n| {name}" not in text]
+        if lacks:
+            said.append(f"the table {mark} has no row of: {', '.join(lacks)}")
+    return said
+
+
 def self_test():
     page = ("<!-- engine:begin -->\nA, commit 01234567.\n\n| x |\n\nB, commit 89abcdef.\n\n| y |\n<!-- engine:end -->\n"
             "<!-- render:begin -->\n| x |\n<!-- render:end -->\n<!-- pages:begin -->\n<!-- pages:end -->\n"
@@ -52,19 +67,25 @@ def self_test():
     assert len(problems(found, lambda *_: 21)) == 4
     assert problems(found, lambda commit, _: 21 if commit == "89abcdef" else 0)[2].startswith("the table engine is of 89abcdef")
     assert problems(found, lambda *_: None) == without
+    page = "<!-- render:begin -->\n| x |" + "".join(f"\n| {name}" for name in ROWS.values()) + "\n<!-- render:end -->\n"
+    assert without_rows(page) == []
+    assert without_rows(page.replace("emd3001", "x")) == ["the table render has no row of: EM"]
 
 
 def main():
     if sys.argv[1:] == ["--self-test"]:
         self_test()
         return
-    found = commits_of((ROOT / "docs/performance.md").read_text())
+    page = (ROOT / "docs/performance.md").read_text()
+    found = commits_of(page)
     missing = sorted(set(MEASURED) - set(found))
     if missing:
         sys.exit(f"docs/performance.md has no table {', '.join(missing)}")
     if any(newer(commit, []) is None for commits in found.values() for commit in commits):
         print("SKIPPED: this clone does not have the commits of the tables")
-    if said := problems(found, newer):
+    if single := [mark for mark, commits in found.items() if len(commits) == 1]:
+        print(f"note: measured on one kind of processor: {', '.join(single)}")
+    if said := problems(found, newer) + without_rows(page):
         sys.exit("\n".join(said) + "\nNext: make bench, on a quiet machine.")
 
 
