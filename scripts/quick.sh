@@ -15,6 +15,7 @@ program_of() {
         image | render) echo unit_render ;;
         preview | catalogue | page | server) echo unit_server ;;
         phantom | verify) echo unit_checks ;;
+        methods*) echo unit_methods ;;
         *) echo "quick: no room is called $1; rooms are the folders of src" >&2 && return 1 ;;
     esac
 }

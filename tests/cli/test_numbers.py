@@ -7,7 +7,7 @@ import subprocess
 
 import harness
 
-VERBS = ["info", "objects", "extract", "render", "animate", "label", "tree", "verify", "build", "atlas", "view", "handles", "spectrum", "table131",
+VERBS = ["info", "objects", "extract", "render", "animate", "label", "tree", "verify", "build", "atlas", "view", "handles", "spectrum", "table131", "compare",
          "convert", "phantom"]
 OUTPUTS = {"extract": "x.ply", "render": "x.png", "animate": "x.gif", "label": "x.nrrd", "build": "x.atlas", "convert": "x.nrrd"}
 NUMBERS = {"T", "SIGMA", "H", "V", "N", "ID", "BYTES", "P", "F", "A", "B", "VALUE"}

@@ -52,6 +52,7 @@ class Schemas(harness.CliTest):
             self.check("handles", "handles", file)
             self.check("spectrum", "spectrum", file)
             self.check("table131", "table131", file)
+            self.check("compare", "compare", file, "--tau", "7")
             for detail in ("events", "levels", "elements", "contours"):
                 self.assert_schema(self.run_json("tree", file, "--detail", detail), "tree-" + detail)
         self.check("verify", "verify", "x.ply")

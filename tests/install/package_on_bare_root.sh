@@ -82,7 +82,7 @@ step "a page, a table, a surface, the viewer"
 
 if [[ ${ISOATLAS_BARE_ROOT:-} == full ]]; then
     (cd "$work" && cpack --config "$build/CPackConfig.cmake" -G DEB -B "$work/development" \
-        -D CPACK_COMPONENTS_ALL="core;formats;store;measures;render;server;phantom;verify;umbrella;package") >"$work/said" 2>&1 || { tail -n 40 "$work/said"; exit 1; }
+        -D CPACK_COMPONENTS_ALL="core;formats;store;measures;render;server;phantom;verify;methods;umbrella;package") >"$work/said" 2>&1 || { tail -n 40 "$work/said"; exit 1; }
     cp "$work"/development/libisoatlas-dev_*.deb "$root/packages/"
     cp -r "$source/tests/install/consumer" "$root/packages/"
     step "libisoatlas-dev made"

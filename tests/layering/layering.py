@@ -21,6 +21,7 @@ LIBRARIES = {
     "server": (["store", "measures", "render"], ["preview", "catalogue", "page", "server"]),
     "phantom": (["core"], ["phantom"]),
     "verify": (["store"], ["verify"]),
+    "methods": (["store"], ["methods/search", "methods/disk", "methods/surfaces"]),
 }
 LIBRARY_OF = {room: library for library, (_, rooms) in LIBRARIES.items() for room in rooms}
 FOLDERS = {room.split("/")[0] for room in LIBRARY_OF}
@@ -45,6 +46,9 @@ PUBLIC = {
     "server": "client server",
     "phantom": "phantom",
     "verify": "verify",
+    "methods/search": "cell_search",
+    "methods/disk": "disk_search",
+    "methods/surfaces": "surface_methods",
 }
 OWNER = {name: room for room, names in PUBLIC.items() for name in names.split()}
 MAX_LINES = 400

@@ -138,7 +138,8 @@ void assume_inputs(Arguments& arguments, Terminal& terminal) {
     inputs.are_labels = inputs.labels == LabelChoice::yes;
     if (inputs.are_labels && (arguments.is_low() || arguments.polarity == PolarityChoice::both))
         throw Error(ErrorKind::usage, {.what = "labels have no objects of low values", .next = "omit --labels yes, or --polarity"});
-    const bool filters = inputs.seeks_gaussian && (arguments.verb == "convert" || arguments.verb == "table131");
+    const bool filters =
+        inputs.seeks_gaussian && (arguments.verb == "convert" || arguments.verb == "table131" || arguments.verb == "compare");
     if (!(is_analysis(arguments.verb) || filters) || is_atlas(arguments.file)) return;
     try {
         const std::unique_ptr<VolumeReader> reader = open_volume(arguments.file, arguments.open);

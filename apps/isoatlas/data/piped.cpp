@@ -2,9 +2,6 @@
 
 #include <array>
 #include <cerrno>
-#include <cstdlib>
-#include <cstring>
-#include <filesystem>
 #include <fstream>
 #include <map>
 #include <vector>
@@ -17,17 +14,9 @@
 namespace isoatlas::cli {
 namespace {
 
-namespace fs = std::filesystem;
-
 constexpr std::size_t kBlock = std::size_t{1} << 20;
 
 [[noreturn]] void refuse(const std::string& what, const std::string& next) { throw Error(ErrorKind::usage, {.what = what, .next = next}); }
-
-[[noreturn]] void failed(const char* file, int error) {
-    throw Error(ErrorKind::resource, {.file = file,
-                                      .what = std::string("cannot be read or kept: ") + std::strerror(error),
-                                      .next = "set TMPDIR to a folder with free space"});
-}
 
 /// Of `-o -` alone; `-o -.stl` says another one.
 std::string extension_of(const Arguments& arguments) {
@@ -45,32 +34,17 @@ bool goes_to_output(const std::string& output) { return output == "-" || output.
 }  // namespace
 
 Piped::Piped(Arguments& arguments, Terminal& terminal) : terminal_(terminal) {
-    try {
-        if (goes_to_output(arguments.output)) take_output(arguments);
-        if (arguments.file == "-") read_input(arguments);
-        if (folder_.empty()) return;
-        Terminal::Style style = terminal_.style();
-        style.hints = false;  // their files will be gone
-        terminal_.set_style(style);
-    } catch (...) {
-        std::error_code ignored;
-        if (!folder_.empty()) fs::remove_all(folder_, ignored);
-        throw;
-    }
-}
-
-Piped::~Piped() {
-    std::error_code ignored;
-    if (!folder_.empty()) fs::remove_all(folder_, ignored);
+    if (goes_to_output(arguments.output)) take_output(arguments);
+    if (arguments.file == "-") read_input(arguments);
+    if (!folder_) return;
+    Terminal::Style style = terminal_.style();
+    style.hints = false;  // their files will be gone
+    terminal_.set_style(style);
 }
 
 const std::string& Piped::folder() {
-    if (!folder_.empty()) return folder_;
-    std::error_code error;
-    std::string name = (fs::temp_directory_path(error) / "isoatlas-XXXXXX").string();
-    if (error || ::mkdtemp(name.data()) == nullptr) failed("TMPDIR", errno);
-    folder_ = name;
-    return folder_;
+    if (!folder_) folder_.emplace();
+    return folder_->path();
 }
 
 void Piped::take_output(Arguments& arguments) {
@@ -98,12 +72,12 @@ void Piped::read_input(Arguments& arguments) {
         stop_if_interrupted();
         const ssize_t got = ::read(STDIN_FILENO, block.data(), block.size());
         if (got < 0 && errno == EINTR) continue;
-        if (got < 0) failed("standard input", errno);
+        if (got < 0) temporary_file_failed("standard input", errno);
         if (got == 0) break;
-        if (!file.write(block.data(), got)) failed("standard input", errno);
+        if (!file.write(block.data(), got)) temporary_file_failed("standard input", errno);
     }
     file.close();
-    if (!file) failed("standard input", errno);
+    if (!file) temporary_file_failed("standard input", errno);
 }
 
 Error Piped::renamed(const Error& error) const {
@@ -118,7 +92,7 @@ Error Piped::renamed(const Error& error) const {
 }
 
 int Piped::run(const std::function<int()>& verb) {
-    if (folder_.empty()) return verb();
+    if (!folder_) return verb();
     int code = 0;
     const auto named = [&] {
         try {

@@ -2,8 +2,10 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <string>
 
+#include "data/temporary_folder.h"
 #include "options/arguments.h"
 
 namespace isoatlas::cli {
@@ -16,9 +18,6 @@ public:
     /// Reads standard input to its end. Throws Error: usage (a verb that cannot, standard input is a terminal, --json beside -o -),
     /// resource.
     Piped(Arguments& arguments, Terminal& terminal);
-    ~Piped();
-    Piped(const Piped&) = delete;
-    Piped& operator=(const Piped&) = delete;
 
     /// With `-o -` what the verb prints becomes messages, and its file goes to standard output where it succeeds.
     [[nodiscard]] int run(const std::function<int()>& verb);
@@ -31,7 +30,8 @@ private:
     void take_output(Arguments& arguments);
 
     Terminal& terminal_;
-    std::string folder_, input_, output_;
+    std::optional<TemporaryFolder> folder_;
+    std::string input_, output_;
 };
 
 }  // namespace isoatlas::cli

@@ -13,7 +13,7 @@ namespace isoatlas::cli {
 namespace {
 
 /// Verbs that filter and crop the samples of a store; the others take those that its trees were made of.
-bool filters_stores(const std::string& verb) { return verb == "convert" || verb == "table131"; }
+bool filters_stores(const std::string& verb) { return verb == "convert" || verb == "table131" || verb == "compare"; }
 
 }  // namespace
 

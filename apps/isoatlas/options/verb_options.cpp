@@ -164,6 +164,11 @@ void spectrum_options(CLI::App& app, Arguments& arguments, Typed& typed) {
 
 void table131_options(CLI::App& app, Arguments& /*arguments*/, Typed& typed) { add_shape(app, typed); }
 
+void compare_options(CLI::App& app, Arguments& /*arguments*/, Typed& typed) {
+    add_tau(app, typed, "The isovalue whose active cells are searched");
+    add_shape(app, typed);
+}
+
 void convert_options(CLI::App& app, Arguments& arguments, Typed& typed) {
     add_shape(app, typed);
     add_output(app, arguments, ".nrrd .npy .raw .mha .nii .nii.gz .vti .tif", true);
@@ -260,7 +265,7 @@ void add_options_of(const std::string& verb, CLI::App& app, Arguments& arguments
         {"extract", extract_options}, {"render", render_options},     {"animate", animate_options},   {"label", label_options},
         {"build", build_options},     {"atlas", atlas_options},       {"view", view_options},         {"ask", ask_options},
         {"handles", handles_options}, {"spectrum", spectrum_options}, {"table131", table131_options}, {"convert", convert_options},
-        {"phantom", phantom_options}, {"verify", verify_options},     {"name", name_options},
+        {"phantom", phantom_options}, {"verify", verify_options},     {"name", name_options},         {"compare", compare_options},
     };
     if (const auto found = list.find(verb); found != list.end()) found->second(app, arguments, typed);
 }

@@ -68,7 +68,7 @@ int run_second(const Verb& verb, const Arguments& arguments, Terminal& terminal)
 }  // namespace
 
 bool runs_for_each_polarity(const Arguments& arguments) {
-    constexpr std::array<std::string_view, 4> kOneTree{"tree", "spectrum", "handles", "table131"};
+    constexpr std::array<std::string_view, 5> kOneTree{"tree", "spectrum", "handles", "table131", "compare"};
     if (arguments.polarity != PolarityChoice::both) return false;
     const bool is_one_list = !arguments.tau && !arguments.cavities && !arguments.both && arguments.curve.empty();
     if (arguments.verb == "objects") return !is_one_list;

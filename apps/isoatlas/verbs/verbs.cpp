@@ -131,6 +131,13 @@ const std::vector<Verb> kVerbs{
      {"isoatlas table131 scan.nii.gz", "isoatlas table131 scan.nii.gz --gaussian 1.5 --box 40:60,50:70,30:50",
       "isoatlas table131 scan.nii.gz --json"},
      run_table131},
+    {"compare",
+     "VOLUME",
+     "Run the methods of the literature on a volume: the surfaces that they make, with their holes, and what they look at to find active "
+     "cells.",
+     {"isoatlas compare scan.nii.gz --tau 300", "isoatlas compare scan.nii.gz --tau 300 --box 40:60,50:70,30:50",
+      "isoatlas compare scan.atlas --tau 300 --json"},
+     run_compare},
     {"dump",
      "STORE",
      "Print any part of a store: header, contents, an array or some of its numbers, a brick.",
@@ -155,7 +162,7 @@ const std::vector<VerbGroup> kGroups{
     {"Explore", {"atlas", "view", "info", "objects", "measure", "spectrum", "tree", "handles", "name"}},
     {"Export", {"extract", "label", "render", "animate", "convert", "build"}},
     {"Check", {"verify"}},
-    {"For experts", {"ask", "dump", "table131", "phantom", "completion", "manual"}},
+    {"For experts", {"ask", "dump", "table131", "compare", "phantom", "completion", "manual"}},
 };
 
 }  // namespace

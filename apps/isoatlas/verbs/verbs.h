@@ -42,6 +42,7 @@ int run_convert(const Arguments& arguments, Terminal& terminal);
 int run_phantom(const Arguments& arguments, Terminal& terminal);
 int run_handles(const Arguments& arguments, Terminal& terminal);
 int run_spectrum(const Arguments& arguments, Terminal& terminal);
+int run_compare(const Arguments& arguments, Terminal& terminal);
 int run_table131(const Arguments& arguments, Terminal& terminal);
 int run_ask(const Arguments& arguments, Terminal& terminal);
 int run_dump(const Arguments& arguments, Terminal& terminal);

@@ -1,0 +1,51 @@
+// The I/O-optimal interval tree: active cells of an isovalue from a file, in blocks.
+//
+// In the literature: section 3.8.6 of the dissertation; Chiang, Silva, I/O optimal isosurface extraction, 1997; Arge, Vitter, Optimal
+// dynamic interval management in external memory, 1996. docs/methods.md.
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "isoatlas/cell_search.h"
+
+namespace isoatlas {
+
+struct IntervalTreeFileOptions {
+    std::int64_t block_bytes = 4096;  ///< 512 to 65536, a power of two
+};
+
+/// Writes the tree of all cells of a volume. Throws Error: usage (block size), resource (2^32 cells or more, the disk), cancelled. Cost: a
+/// sort of the cells' ends for each level, in memory.
+void write_interval_tree(const std::string& path, const Volume& volume, const IntervalTreeFileOptions& options = {},
+                         const Context& context = {});
+
+/// What a query has read.
+struct BlockReads {
+    std::int64_t blocks = 0;       ///< read, each as often as it was
+    std::int64_t node_blocks = 0;  ///< of them, nodes of the tree
+};
+
+/// An open tree. Blocks are read when a query needs them, two at a time in memory, and verified by their checksums.
+class IntervalTreeFile {
+public:
+    /// Throws Error{input}: missing, not such a file, truncated, damaged.
+    explicit IntervalTreeFile(const std::string& path);
+    IntervalTreeFile(IntervalTreeFile&&) noexcept;
+    IntervalTreeFile& operator=(IntervalTreeFile&&) noexcept;
+    ~IntervalTreeFile();
+
+    /// Every active cell once, in any order. Throws Error: usage (tau is not a finite number), input (damaged).
+    [[nodiscard]] std::vector<CellId> active(double tau, CellSearchCost& cost, BlockReads& reads) const;
+    [[nodiscard]] std::int64_t file_bytes() const;
+    [[nodiscard]] std::int64_t block_bytes() const;
+    [[nodiscard]] std::int64_t cells() const;  ///< that are active at some isovalue
+    [[nodiscard]] int slabs() const;           ///< children of a node
+    [[nodiscard]] int levels() const;
+
+private:
+    struct Data;
+    std::unique_ptr<Data> data_;
+};
+
+}  // namespace isoatlas

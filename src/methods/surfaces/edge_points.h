@@ -1,0 +1,53 @@
+// EdgePoints: the points of a surface, one for each edge between a High and a Low sample that it crosses.
+#pragma once
+
+#include <unordered_map>
+
+#include "isoatlas/surface.h"
+
+namespace isoatlas {
+
+/// Where tau lies between two samples, linearly: from is High, to is Low, and the point is at `from` where they are equal.
+[[nodiscard]] inline double part_of_edge(double from, double to, double tau) { return (from - tau) / (from - to); }
+
+template <class T>
+class EdgePoints {
+public:
+    EdgePoints(const VolumeInfo& info, std::span<const T> samples, double tau, Surface& surface)
+        : info_(info), samples_(samples), tau_(tau), surface_(surface) {}
+
+    /// high, low: neighbouring samples, also across the diagonal of a face or a cell.
+    std::int64_t point(const Index3& high, const Index3& low) {
+        const Extent& extent = info_.extent;
+        const std::int64_t from = extent.index(high), to = extent.index(low);
+        const auto step = static_cast<std::uint64_t>((low[0] - high[0] + 1) + 3 * (low[1] - high[1] + 1) + 9 * (low[2] - high[2] + 1));
+        const auto [at, is_new] = known_.emplace(static_cast<std::uint64_t>(from) * 27 + step, std::ssize(surface_.points));
+        if (is_new) {
+            const double part = part_of_edge(value(from), value(to), tau_);
+            Vec3 position;
+            for (std::size_t axis = 0; axis < 3; ++axis)
+                position[axis] = static_cast<double>(high[axis]) + part * static_cast<double>(low[axis] - high[axis]);
+            surface_.points.push_back(to_physical(info_.geometry, position));
+        }
+        return at->second;
+    }
+    void add_triangle(std::int64_t p, std::int64_t q, std::int64_t r) { surface_.triangles.push_back({p, q, r}); }
+    [[nodiscard]] double value(std::int64_t sample) const { return static_cast<double>(samples_[static_cast<std::size_t>(sample)]); }
+    [[nodiscard]] double value(const Index3& sample) const { return value(info_.extent.index(sample)); }
+    [[nodiscard]] bool is_high(const Index3& sample) const { return value(sample) >= tau_; }
+    [[nodiscard]] double tau() const { return tau_; }
+
+private:
+    const VolumeInfo& info_;
+    std::span<const T> samples_;
+    double tau_;
+    Surface& surface_;
+    std::unordered_map<std::uint64_t, std::int64_t> known_;
+};
+
+/// Sample of a corner of a cell (field/cell.h).
+[[nodiscard]] inline Index3 corner_of(const Index3& cell, int corner) {
+    return {cell[0] + (corner & 1), cell[1] + (corner >> 1 & 1), cell[2] + (corner >> 2)};
+}
+
+}  // namespace isoatlas

@@ -1,0 +1,131 @@
+// The methods that make surfaces are what their papers say, defects included.
+#include "isoatlas/surface_methods.h"
+
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+#include "isoatlas/phantom.h"
+#include "oracle/mesh_checks.h"
+
+namespace oracle {
+namespace {
+
+using isoatlas::Surface;
+using isoatlas::SurfaceMethod;
+using isoatlas::SurfaceReport;
+
+SurfaceReport report_of(const Surface& surface) { return isoatlas::inspect(surface.points, surface.triangles); }
+
+/// Enclosed volume of a closed surface: positive when triangles are counter-clockwise seen from outside.
+double enclosed(const Surface& surface) {
+    double sum = 0;
+    for (const auto& t : surface.triangles) {
+        const auto &p = surface.points[t[0]], &q = surface.points[t[1]], &r = surface.points[t[2]];
+        sum += p[0] * (q[1] * r[2] - q[2] * r[1]) - p[1] * (q[0] * r[2] - q[2] * r[0]) + p[2] * (q[0] * r[1] - q[1] * r[0]);
+    }
+    return sum / 6;
+}
+
+/// A ball in the middle of a grid.
+isoatlas::Volume ball(Index size) {
+    std::vector<double> values;
+    const double middle = static_cast<double>(size - 1) / 2;
+    for (Index v = 0; v < size * size * size; ++v) {
+        const double x = static_cast<double>(v % size) - middle, y = static_cast<double>(v / size % size) - middle,
+                     z = static_cast<double>(v / (size * size)) - middle;
+        values.push_back(-std::sqrt(x * x + y * y + z * z));
+    }
+    return isoatlas::make_volume<double>({3, {size, size, size}}, values);
+}
+
+TEST(SurfaceMethods, MakeABall) {
+    const isoatlas::Volume volume = ball(24);
+    const double exact = 4.0 / 3 * 3.14159265358979 * 9 * 9 * 9;
+    for (const isoatlas::SurfaceMethodInfo& info : isoatlas::surface_methods()) {
+        const Surface surface = isoatlas::extract_by(info.method, volume, -9);
+        const SurfaceReport report = report_of(surface);
+        EXPECT_EQ(report.boundary_edges, 0) << info.name;
+        EXPECT_EQ(report.misoriented_edges, 0) << info.name;
+        EXPECT_EQ(report.component_chi, std::vector<std::int64_t>{2}) << info.name;
+        EXPECT_NEAR(enclosed(surface) / exact, 1, 0.01) << info.name;
+        EXPECT_EQ(&isoatlas::info_of(info.method), &info);
+    }
+}
+
+/// Two cells whose common face alternates: one has three Highs, the other five.
+TEST(SurfaceMethods, MarchingCubesHasHoles) {
+    std::vector<double> values{0, 1, 0, 1, 0, 1, 0, 0, 1, 0, 1, 1};
+    const isoatlas::Volume volume = isoatlas::make_volume<double>({3, {3, 2, 2}}, values);
+    const auto holes = [&](SurfaceMethod method) {
+        return isoatlas::count_hole_edges(isoatlas::extract_by(method, volume, 0.6), volume.info);
+    };
+    EXPECT_GT(holes(SurfaceMethod::marching_cubes), 0);
+    for (const SurfaceMethod method : {SurfaceMethod::asymptotic_decider, SurfaceMethod::five_tetrahedra, SurfaceMethod::six_tetrahedra,
+                                       SurfaceMethod::spider_web, SurfaceMethod::trilinear})
+        EXPECT_EQ(holes(method), 0) << isoatlas::info_of(method).name;
+}
+
+/// Two Highs at the ends of a diagonal of a cell: the cut joins them, or does not.
+TEST(SurfaceMethods, TetrahedraSeeAnotherObjectInAMirror) {
+    std::vector<double> values(64, 0.0), mirrored(64, 0.0);
+    for (const auto& [x, y, z] : {std::array{1, 1, 1}, std::array{2, 2, 2}}) {
+        values[static_cast<std::size_t>(x + 4 * (y + 4 * z))] = 1;
+        mirrored[static_cast<std::size_t>(3 - x + 4 * (y + 4 * z))] = 1;
+    }
+    const auto components = [](SurfaceMethod method, const std::vector<double>& of) {
+        return report_of(isoatlas::extract_by(method, isoatlas::make_volume<double>({3, {4, 4, 4}}, of), 0.4)).component_chi.size();
+    };
+    EXPECT_EQ(components(SurfaceMethod::six_tetrahedra, values), 1U);
+    EXPECT_EQ(components(SurfaceMethod::six_tetrahedra, mirrored), 2U);
+    EXPECT_EQ(components(SurfaceMethod::trilinear, values), components(SurfaceMethod::trilinear, mirrored));
+}
+
+RC_GTEST_PROP(SurfaceMethodsOf, AnyVolumeAreWatertightButMarchingCubes, ()) {
+    Grid grid = *arbitrary_grid(6, 100);
+    grid.rank = 3;
+    const isoatlas::Volume volume = to_volume(grid, arbitrary_type(grid));
+    for (const double tau : interesting_values(elements_of(grid, isoatlas::Interpolant::faces))) {
+        for (const isoatlas::SurfaceMethodInfo& info : isoatlas::surface_methods()) {
+            if (info.method == SurfaceMethod::marching_cubes) continue;
+            const Surface surface = isoatlas::extract_by(info.method, volume, tau);
+            const std::string where = std::string(info.name) + " at " + std::to_string(tau);
+            const SurfaceReport report = report_of(surface);
+            if (report.misoriented_edges != 0) RC_FAIL(where + ": triangles are not turned alike");
+            const bool is_generic = std::ranges::find(grid.value, tau) == grid.value.end();  // else points lie on samples
+            if (is_generic && isoatlas::count_hole_edges(surface, volume.info) != 0) RC_FAIL(where + ": holes");
+            const bool is_simplicial = info.method == SurfaceMethod::five_tetrahedra || info.method == SurfaceMethod::six_tetrahedra;
+            if (is_generic && is_simplicial && !report.is_manifold()) RC_FAIL(where + ": not a manifold");
+        }
+    }
+}
+
+/// Half the diagonal of a small cube away from the surface at most, with normals outwards.
+TEST(SurfaceMethods, DividingCubesLieNearTheSurface) {
+    const isoatlas::Volume volume = ball(24);
+    std::size_t before = 0;
+    for (const int divisions : {1, 2, 4}) {
+        const isoatlas::PointCloud cloud = isoatlas::divide_cubes(volume, -9, divisions);
+        const double most = std::sqrt(3) / 2 / divisions + 0.05;  // the interpolated ball is not quite the ball
+        for (std::size_t i = 0; i < cloud.points.size(); ++i) {
+            double square = 0, along = 0;
+            for (std::size_t axis = 0; axis < 3; ++axis) {
+                const double x = cloud.points[i][axis] - 11.5;
+                square += x * x, along += x * cloud.normals[i][axis];
+            }
+            EXPECT_NEAR(std::sqrt(square), 9, most);
+            EXPECT_GT(along / std::sqrt(square), 0.95);
+        }
+        EXPECT_GT(cloud.points.size(), 3 * before);
+        before = cloud.points.size();
+    }
+    EXPECT_THROW((void)isoatlas::divide_cubes(volume, -9, 0), isoatlas::Error);
+}
+
+TEST(SurfaceMethods, RefuseWhatTheyCannot) {
+    const isoatlas::Volume image = isoatlas::make_volume<double>({2, {2, 2, 1}}, std::vector<double>{0, 1, 0, 1});
+    EXPECT_THROW((void)isoatlas::extract_by(SurfaceMethod::marching_cubes, image, 0.5), isoatlas::Error);
+    EXPECT_THROW((void)isoatlas::extract_by(SurfaceMethod::marching_cubes, ball(3), std::nan("")), isoatlas::Error);
+}
+
+}  // namespace
+}  // namespace oracle
