@@ -31,7 +31,7 @@ class Compare(harness.CliTest):
     def test_errors(self):
         self.run_error(2, "compare", "noise.nrrd", says="which isovalue", next_says="isoatlas objects")
         self.run_error(2, "compare", "noise.nrrd", "--tau", "x", says="--tau")
-        self.run_error(2, "compare", "none.nrrd", "--tau", "1", says="none.nrrd")
+        self.run_error(3, "compare", "none.nrrd", "--tau", "1", says="none.nrrd")
 
 
 if __name__ == "__main__":
