@@ -14,7 +14,15 @@
 
 namespace isoatlas {
 
-enum class SurfaceMethod : std::uint8_t { marching_cubes, asymptotic_decider, five_tetrahedra, six_tetrahedra, spider_web, trilinear };
+enum class SurfaceMethod : std::uint8_t {
+    connected_contours,
+    marching_cubes,
+    asymptotic_decider,
+    five_tetrahedra,
+    six_tetrahedra,
+    spider_web,
+    trilinear
+};
 
 struct SurfaceMethodInfo {
     SurfaceMethod method;
@@ -23,7 +31,7 @@ struct SurfaceMethodInfo {
     std::string_view section;  ///< of the dissertation; empty: none
     std::string_view source;   ///< authors, title, year
 };
-/// Marching Cubes first; the last two are the product.
+/// In the order of the dissertation; the last two are the product.
 [[nodiscard]] std::span<const SurfaceMethodInfo> surface_methods();
 [[nodiscard]] const SurfaceMethodInfo& info_of(SurfaceMethod method);
 

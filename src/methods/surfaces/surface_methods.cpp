@@ -8,13 +8,16 @@
 #include "field/volume_view.h"
 #include "isoatlas/environment.h"
 #include "isoatlas/error.h"
+#include "methods/surfaces/contour_stack.h"
 #include "methods/surfaces/loops.h"
 #include "methods/surfaces/tetrahedra.h"
 
 namespace isoatlas {
 namespace {
 
-constexpr std::array<SurfaceMethodInfo, 6> kMethods{{
+constexpr std::array<SurfaceMethodInfo, 7> kMethods{{
+    {SurfaceMethod::connected_contours, "connected-contours", "Connected contours of slices", "3.1",
+     "Fuchs, Kedem, Uselton, Optimal surface reconstruction from planar contours, 1977"},
     {SurfaceMethod::marching_cubes, "marching-cubes", "Marching Cubes of 1987", "3.2", "Lorensen, Cline, Marching Cubes, 1987"},
     {SurfaceMethod::asymptotic_decider, "asymptotic-decider", "Asymptotic decider", "3.2", "Nielson, Hamann, The asymptotic decider, 1991"},
     {SurfaceMethod::five_tetrahedra, "five-tetrahedra", "Five tetrahedra a cell", "3.5",
@@ -117,7 +120,10 @@ Surface extract_by(SurfaceMethod method, const Volume& volume, double tau, const
     surface.tau = tau, surface.reported_tau = volume.info.calibration.reported(tau);
     surface.space = volume.info.geometry.space, surface.unit = volume.info.geometry.unit;
     surface.closed = false;
-    visit_samples(VolumeView(volume), [&](auto samples) { add_cells(method, volume.info, samples, tau, context, surface); });
+    if (method == SurfaceMethod::connected_contours)
+        connect_contours(volume, tau, context, surface);
+    else
+        visit_samples(VolumeView(volume), [&](auto samples) { add_cells(method, volume.info, samples, tau, context, surface); });
     if (handedness(volume.info.geometry) < 0) turn(surface);
     return surface;
 }
