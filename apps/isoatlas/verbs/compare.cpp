@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <functional>
 #include <numeric>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -17,6 +19,23 @@
 
 namespace isoatlas::cli {
 namespace {
+
+/// Tells which method runs, and gives a context in which it says nothing itself.
+class Stages {
+public:
+    explicit Stages(const Context& context) : context_(context), tell_(std::exchange(context_.progress, {})) {}
+    [[nodiscard]] const Context& next(std::string_view method) {
+        if (tell_) tell_({.phase = method, .phase_index = begun_++, .phase_count = kCount});
+        return context_;
+    }
+
+private:
+    static inline const int kCount = static_cast<int>(surface_methods().size() + search_methods().size()) + 5;
+
+    Context context_;
+    std::function<void(const Progress&)> tell_;
+    int begun_ = 0;
+};
 
 struct Compared {
     const SearchMethodInfo* info;
@@ -33,7 +52,8 @@ double seconds_of(const Work& work) {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
-Compared run_method(const SearchMethodInfo& info, const Volume& volume, double tau, const Context& context) {
+Compared run_method(const SearchMethodInfo& info, const Volume& volume, double tau, Stages& stages) {
+    const Context& context = stages.next(info.name);
     Compared result{&info, 0, 0, 0, {}, {}};
     std::unique_ptr<CellSearch> search;
     result.build_seconds = seconds_of([&] { search = make_cell_search(info.method, volume, context); });
@@ -61,21 +81,23 @@ struct ComparedPoints {
 };
 
 /// Dividing Cubes, twice as near each time; none of an image.
-std::vector<ComparedPoints> make_points(const Volume& volume, double tau, const Context& context) {
+std::vector<ComparedPoints> make_points(const Volume& volume, double tau, Stages& stages) {
     std::vector<ComparedPoints> all;
     for (int divisions = 1; divisions <= 4 && volume.info.extent.rank == 3; divisions *= 2) {
         PointCloud cloud;
+        const Context& context = stages.next("dividing-cubes");
         const double seconds = seconds_of([&] { cloud = divide_cubes(volume, tau, divisions, context); });
         all.push_back({divisions, seconds, std::ssize(cloud.points)});
     }
     return all;
 }
 
-std::vector<ComparedSurface> make_surfaces(const Volume& volume, double tau, const Context& context) {
+std::vector<ComparedSurface> make_surfaces(const Volume& volume, double tau, Stages& stages) {
     std::vector<ComparedSurface> all;
     if (volume.info.extent.rank != 3) return all;
     for (const SurfaceMethodInfo& info : surface_methods()) {
         Surface surface;
+        const Context& context = stages.next(info.name);
         const double seconds = seconds_of([&] { surface = extract_by(info.method, volume, tau, context); });
         all.push_back({&info, seconds, inspect(surface.points, surface.triangles), count_hole_edges(surface, volume.info)});
     }
@@ -90,12 +112,13 @@ struct ComparedFile {
     BlockReads reads;
 };
 
-std::vector<ComparedFile> search_files(const Volume& volume, double tau, const Context& context) {
+std::vector<ComparedFile> search_files(const Volume& volume, double tau, Stages& stages) {
     const TemporaryFolder folder;
     const std::string path = folder.path() + "/cells.tree";
     std::vector<ComparedFile> all;
     for (const std::int64_t block_bytes : {4096, 65536}) {
         ComparedFile one{block_bytes, 0, 0, 0, {}, {}};
+        const Context& context = stages.next("interval-tree-file");
         one.build_seconds = seconds_of([&] { write_interval_tree(path, volume, {.block_bytes = block_bytes}, context); });
         const IntervalTreeFile file(path);
         one.seconds = seconds_of([&] { (void)file.active(tau, one.cost, one.reads); });
@@ -106,10 +129,10 @@ std::vector<ComparedFile> search_files(const Volume& volume, double tau, const C
 }
 
 /// In turns; each must find the cells of brute force, the first one.
-std::vector<Compared> run_all(const Volume& volume, double tau, const Context& context) {
+std::vector<Compared> run_all(const Volume& volume, double tau, Stages& stages) {
     std::vector<Compared> all;
     for (const SearchMethodInfo& info : search_methods()) {
-        all.push_back(run_method(info, volume, tau, context));
+        all.push_back(run_method(info, volume, tau, stages));
         if (all.back().cells != all.front().cells)
             throw Error(ErrorKind::internal, {.what = std::string(info.name) + " does not find the active cells"});
         if (all.size() > 1) all.back().cells = {};
@@ -260,13 +283,13 @@ int run_compare(const Arguments& arguments, Terminal& terminal) {
     const Volume& volume = source.volume();
     Index3 size = volume.info.extent.size;
     for (int axis = 0; axis < volume.info.extent.rank; ++axis) --size[axis];
-    const Context context = source.context();
+    Stages stages(source.context());
     const Comparison found{tau,
                            size.product(),
-                           make_surfaces(volume, tau, context),
-                           make_points(volume, tau, context),
-                           run_all(volume, tau, context),
-                           search_files(volume, tau, context)};
+                           make_surfaces(volume, tau, stages),
+                           make_points(volume, tau, stages),
+                           run_all(volume, tau, stages),
+                           search_files(volume, tau, stages)};
     if (arguments.json) {
         print_json(terminal, found, source.info());
         return 0;
