@@ -70,7 +70,7 @@ struct ReservedMemory {
 /// Called on the thread of the network after a response.
 template <class Call>
 struct AfterResponse {
-    using allocator_type = ReservedMemory<std::byte>;
+    using allocator_type = ReservedMemory<std::byte>;  // NOLINT(readability-identifier-naming): Asio looks for it
     ConnectionPointer connection;
     Call call;
 

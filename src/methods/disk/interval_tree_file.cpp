@@ -43,7 +43,8 @@ std::int64_t node_bytes(std::int64_t slabs) { return 16 + 8 * (slabs - 1) + 8 * 
 /// As many as the square root of the entries of a block, and as a node has room for.
 template <class T>
 int slabs_of(std::int64_t payload) {
-    auto slabs = static_cast<std::int64_t>(std::sqrt(static_cast<double>(payload / kEntryBytes<T>)));
+    const std::int64_t entries = payload / kEntryBytes<T>;
+    auto slabs = static_cast<std::int64_t>(std::sqrt(static_cast<double>(entries)));
     while (slabs > 2 && node_bytes(slabs) > payload) --slabs;
     return static_cast<int>(std::max<std::int64_t>(2, slabs));
 }
