@@ -96,11 +96,7 @@ private:
 
 PointCloud divide_cubes(const Volume& volume, double tau, int divisions, const Context& context) {
     const EnvironmentScope scope(context);
-    if (!std::isfinite(tau))
-        throw Error(ErrorKind::usage, {.what = "the isovalue is not a finite number", .next = "give a finite isovalue"});
-    if (volume.info.extent.rank != 3)
-        throw Error(ErrorKind::usage,
-                    {.where = volume.info.path, .what = "an image has curves, not surfaces", .next = "choose a 3D volume"});
+    require_surface(volume, tau);
     if (divisions < 1 || divisions > kMaxDivisions)
         throw Error(ErrorKind::usage, {.where = "divisions of a cell", .expected = "1 to " + std::to_string(kMaxDivisions)});
     PointCloud cloud;

@@ -1,11 +1,22 @@
 // EdgePoints: the points of a surface, one for each edge between a High and a Low sample that it crosses.
 #pragma once
 
+#include <cmath>
 #include <unordered_map>
 
+#include "isoatlas/error.h"
 #include "isoatlas/surface.h"
 
 namespace isoatlas {
+
+/// Throws Error{usage}: an isovalue that is none, an image.
+inline void require_surface(const Volume& volume, double tau) {
+    if (!std::isfinite(tau))
+        throw Error(ErrorKind::usage, {.what = "the isovalue is not a finite number", .next = "give a finite isovalue"});
+    if (volume.info.extent.rank != 3)
+        throw Error(ErrorKind::usage,
+                    {.where = volume.info.path, .what = "an image has curves, not surfaces", .next = "choose a 3D volume"});
+}
 
 /// Where tau lies between two samples, linearly: from is High, to is Low, and the point is at `from` where they are equal.
 [[nodiscard]] inline double part_of_edge(double from, double to, double tau) { return (from - tau) / (from - to); }

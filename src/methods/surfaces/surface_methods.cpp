@@ -104,11 +104,7 @@ const SurfaceMethodInfo& info_of(SurfaceMethod method) { return kMethods[static_
 
 Surface extract_by(SurfaceMethod method, const Volume& volume, double tau, const Context& context) {
     const EnvironmentScope scope(context);
-    if (!std::isfinite(tau))
-        throw Error(ErrorKind::usage, {.what = "the isovalue is not a finite number", .next = "give a finite isovalue"});
-    if (volume.info.extent.rank != 3)
-        throw Error(ErrorKind::usage,
-                    {.where = volume.info.path, .what = "an image has curves, not surfaces", .next = "choose a 3D volume"});
+    require_surface(volume, tau);
     if (method == SurfaceMethod::spider_web || method == SurfaceMethod::trilinear) {
         const Interpolant interpolant = method == SurfaceMethod::trilinear ? Interpolant::trilinear : Interpolant::faces;
         ExtractOptions options{.interpolant = interpolant};
