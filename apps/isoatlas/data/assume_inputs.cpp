@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "data/session.h"
+#include "data/source.h"
 #include "options/words.h"
 #include "text/terminal.h"
 #include "text/values.h"
@@ -138,8 +139,7 @@ void assume_inputs(Arguments& arguments, Terminal& terminal) {
     inputs.are_labels = inputs.labels == LabelChoice::yes;
     if (inputs.are_labels && (arguments.is_low() || arguments.polarity == PolarityChoice::both))
         throw Error(ErrorKind::usage, {.what = "labels have no objects of low values", .next = "omit --labels yes, or --polarity"});
-    const bool filters =
-        inputs.seeks_gaussian && (arguments.verb == "convert" || arguments.verb == "table131" || arguments.verb == "compare");
+    const bool filters = inputs.seeks_gaussian && filters_stores(arguments.verb);
     if (!(is_analysis(arguments.verb) || filters) || is_atlas(arguments.file)) return;
     try {
         const std::unique_ptr<VolumeReader> reader = open_volume(arguments.file, arguments.open);

@@ -10,12 +10,7 @@
 
 namespace isoatlas::cli {
 
-namespace {
-
-/// Verbs that filter and crop the samples of a store; the others take those that its trees were made of.
 bool filters_stores(const std::string& verb) { return verb == "convert" || verb == "table131" || verb == "compare"; }
-
-}  // namespace
 
 void check_store_options(const Arguments& arguments, const Atlas& atlas) {
     const auto refuse = [&](const char* option, const std::string& has) {

@@ -13,6 +13,9 @@
 
 namespace isoatlas::cli {
 
+/// Verbs that filter and crop the samples of a store; the others take those that its trees were made of.
+[[nodiscard]] bool filters_stores(const std::string& verb);
+
 /// Options that are fixed when a store is built: throws Error{usage} when one contradicts the store.
 void check_store_options(const Arguments& arguments, const Atlas& atlas);
 

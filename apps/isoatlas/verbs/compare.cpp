@@ -140,7 +140,7 @@ std::vector<Compared> run_all(const Volume& volume, double tau, Stages& stages) 
     return all;
 }
 
-void print_text(Terminal& terminal, const std::vector<Compared>& all, std::int64_t cells) {
+void print_text(Terminal& terminal, const std::vector<Compared>& all) {
     Table table({{"method", true}, {"section", true}, {"build, ms"}, {"query, ms"}, {"cells looked at"}, {"nodes"}, {"memory"}});
     for (const Compared& one : all) {
         table.add({std::string(one.info->title), std::string(one.info->section), fmt::format("{:.1f}", 1e3 * one.build_seconds),
@@ -149,7 +149,7 @@ void print_text(Terminal& terminal, const std::vector<Compared>& all, std::int64
     }
     table.print(terminal);
     terminal.out() << '\n'
-                   << counted(all.front().cost.active, "active cell") << " of " << count_text(cells)
+                   << counted(all.front().cost.active, "active cell") << " of " << count_text(all.front().cost.cells)
                    << "; every method finds them all. Sections are those of the dissertation\n";
 }
 
@@ -238,7 +238,6 @@ Json json_of(const std::vector<ComparedFile>& all) {
 /// Everything that was compared.
 struct Comparison {
     double tau;
-    std::int64_t cells;
     std::vector<ComparedSurface> surfaces;
     std::vector<ComparedPoints> points;
     std::vector<Compared> searches;
@@ -248,7 +247,7 @@ struct Comparison {
 void print_json(Terminal& terminal, const Comparison& found, const VolumeInfo& info) {
     Json json = document("compare", info);
     json["tau"] = number(info.calibration.reported(found.tau));
-    json["cells"] = found.cells;
+    json["cells"] = found.searches.front().cost.cells;  // brute force looks at all
     json["active_cells"] = found.searches.front().cost.active;
     json["surfaces"] = json_of(found.surfaces);
     json["dividing_cubes"] = json_of(found.points);
@@ -281,14 +280,8 @@ int run_compare(const Arguments& arguments, Terminal& terminal) {
     Source source(arguments, terminal);
     const double tau = source.tau();
     const Volume& volume = source.volume();
-    Index3 size = volume.info.extent.size;
-    for (int axis = 0; axis < volume.info.extent.rank; ++axis) --size[axis];
     Stages stages(source.context());
-    const Comparison found{tau,
-                           size.product(),
-                           make_surfaces(volume, tau, stages),
-                           make_points(volume, tau, stages),
-                           run_all(volume, tau, stages),
+    const Comparison found{tau, make_surfaces(volume, tau, stages), make_points(volume, tau, stages), run_all(volume, tau, stages),
                            search_files(volume, tau, stages)};
     if (arguments.json) {
         print_json(terminal, found, source.info());
@@ -296,7 +289,7 @@ int run_compare(const Arguments& arguments, Terminal& terminal) {
     }
     if (!found.surfaces.empty()) print_surfaces(terminal, found.surfaces), print_points(terminal, found.points);
     print_files(terminal, found.files);
-    print_text(terminal, found.searches, found.cells);
+    print_text(terminal, found.searches);
     return 0;
 }
 

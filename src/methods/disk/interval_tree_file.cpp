@@ -22,6 +22,9 @@ namespace {
 constexpr std::string_view kMagic = "isoatlas BITREE\n";
 constexpr std::int64_t kNoBlock = -1;
 
+/// Numbers of the header.
+constexpr std::size_t kType = 0, kCells = 1, kSlabs = 2, kLevels = 3, kRoot = 4, kEntries = 5;
+
 /// Entries first .. first + count - 1 of the file.
 struct EntryRange {
     std::int64_t first = 0;
@@ -183,10 +186,10 @@ public:
           cost_(cost),
           reads_(reads),
           in_block_(file.payload_bytes() / kEntryBytes<T>),
-          entries_(file.numbers()[5]) {}
+          entries_(file.numbers()[kEntries]) {}
 
     std::vector<CellId> run() {
-        std::int64_t at = file_.numbers()[4], levels = file_.numbers()[3];
+        std::int64_t at = file_.numbers()[kRoot], levels = file_.numbers()[kLevels];
         for (; at != kNoBlock; --levels) {
             if (levels == 0) file_.fail("the tree has more levels than its header says");
             at = visit(at);
@@ -218,7 +221,7 @@ private:
         const std::vector<std::byte> bytes = file_.read(block);
         PayloadReader payload(bytes, file_);
         const auto keys = payload.get<std::int64_t>(), lists = payload.get<std::int64_t>();
-        if (keys < 0 || keys >= file_.numbers()[2] || lists != (keys == 0 ? 1 : keys + 1)) file_.fail("a node has no such lists");
+        if (keys < 0 || keys >= file_.numbers()[kSlabs] || lists != (keys == 0 ? 1 : keys + 1)) file_.fail("a node has no such lists");
         Node node;
         for (std::int64_t i = 0; i < keys; ++i) node.keys.push_back(payload.get<double>());
         for (std::int64_t i = 0; i < (keys == 0 ? 0 : keys + 1); ++i) node.children.push_back(payload.get<std::int64_t>());
@@ -289,7 +292,8 @@ struct IntervalTreeFile::Data {
 
 IntervalTreeFile::IntervalTreeFile(const std::string& path) : data_(std::make_unique<Data>(BlockReader(path, kMagic))) {
     const HeaderNumbers& numbers = data_->file.numbers();
-    if (numbers[0] < 0 || numbers[0] > static_cast<std::int64_t>(ValueType::f64)) data_->file.fail("the type of the samples is unknown");
+    if (numbers[kType] < 0 || numbers[kType] > static_cast<std::int64_t>(ValueType::f64))
+        data_->file.fail("the type of the samples is unknown");
 }
 IntervalTreeFile::IntervalTreeFile(IntervalTreeFile&&) noexcept = default;
 IntervalTreeFile& IntervalTreeFile::operator=(IntervalTreeFile&&) noexcept = default;
@@ -298,7 +302,7 @@ IntervalTreeFile::~IntervalTreeFile() = default;
 std::vector<CellId> IntervalTreeFile::active(double tau, CellSearchCost& cost, BlockReads& reads) const {
     require_isovalue(tau);
     cost = {}, reads = {};
-    std::vector<CellId> found = visit_type(static_cast<ValueType>(data_->file.numbers()[0]),
+    std::vector<CellId> found = visit_type(static_cast<ValueType>(data_->file.numbers()[kType]),
                                            [&]<class T>(T) { return Query<T>(data_->file, tau, cost, reads).run(); });
     cost.active = std::ssize(found);
     return found;
@@ -306,8 +310,8 @@ std::vector<CellId> IntervalTreeFile::active(double tau, CellSearchCost& cost, B
 
 std::int64_t IntervalTreeFile::file_bytes() const { return data_->file.blocks() * data_->file.block_bytes(); }
 std::int64_t IntervalTreeFile::block_bytes() const { return data_->file.block_bytes(); }
-std::int64_t IntervalTreeFile::cells() const { return data_->file.numbers()[1]; }
-int IntervalTreeFile::slabs() const { return static_cast<int>(data_->file.numbers()[2]); }
-int IntervalTreeFile::levels() const { return static_cast<int>(data_->file.numbers()[3]); }
+std::int64_t IntervalTreeFile::cells() const { return data_->file.numbers()[kCells]; }
+int IntervalTreeFile::slabs() const { return static_cast<int>(data_->file.numbers()[kSlabs]); }
+int IntervalTreeFile::levels() const { return static_cast<int>(data_->file.numbers()[kLevels]); }
 
 }  // namespace isoatlas

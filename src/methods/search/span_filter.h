@@ -10,13 +10,19 @@ namespace isoatlas {
 template <class T>
 class SpanFilter final : public CellSearch {
 public:
-    explicit SpanFilter(const CellGrid<T>& grid) : cells_(cell_intervals(grid)) {
-        cut_range();
-        std::ranges::sort(cells_, {}, [this](const CellInterval<T>& c) { return std::tuple(bucket(c.low), bucket(c.high), c.cell); });
+    explicit SpanFilter(const CellGrid<T>& grid) {
+        const std::vector<CellInterval<T>> cells = cell_intervals(grid);
+        cut_range(cells);
         const std::size_t buckets = begins_.size();
+        std::vector<std::size_t> list(cells.size());
         lists_.assign(buckets * buckets + 1, 0);
-        for (const CellInterval<T>& c : cells_) ++lists_[bucket(c.low) * buckets + bucket(c.high) + 1];
+        for (std::size_t i = 0; i < cells.size(); ++i)
+            ++lists_[(list[i] = bucket_of(static_cast<double>(cells[i].low)) * buckets + bucket_of(static_cast<double>(cells[i].high))) +
+                     1];
         for (std::size_t i = 1; i < lists_.size(); ++i) lists_[i] += lists_[i - 1];
+        std::vector<std::size_t> next(lists_.begin(), lists_.end() - 1);
+        cells_.resize(cells.size());
+        for (std::size_t i = 0; i < cells.size(); ++i) cells_[next[list[i]]++] = cells[i];
     }
 
     std::vector<CellId> active(double tau, CellSearchCost& cost) override {
@@ -39,9 +45,9 @@ public:
 private:
     static constexpr std::size_t kBuckets = 64;
 
-    void cut_range() {
+    void cut_range(const std::vector<CellInterval<T>>& cells) {
         std::vector<T> lows;
-        for (const CellInterval<T>& c : cells_) lows.push_back(c.low);
+        for (const CellInterval<T>& c : cells) lows.push_back(c.low);
         std::ranges::sort(lows);
         for (std::size_t b = 0; b < kBuckets && !lows.empty(); ++b) begins_.push_back(lows[b * lows.size() / kBuckets]);
         begins_.erase(std::unique(begins_.begin(), begins_.end()), begins_.end());
@@ -52,7 +58,6 @@ private:
         const auto above = std::ranges::upper_bound(begins_, value, {}, [](T begin) { return static_cast<double>(begin); });
         return above == begins_.begin() ? 0 : static_cast<std::size_t>(above - begins_.begin()) - 1;
     }
-    [[nodiscard]] std::size_t bucket(T value) const { return bucket_of(static_cast<double>(value)); }
 
     std::vector<CellInterval<T>> cells_;  ///< by first bucket, then by last bucket
     std::vector<T> begins_;               ///< ascending
