@@ -45,7 +45,7 @@ private:
             if (to >= grid_.corners() || grid_.is_high(place, from, tau) == grid_.is_high(place, to, tau)) continue;
             const auto along = edge / 4, first = static_cast<std::size_t>(along == 0 ? 1 : 0),
                        second = static_cast<std::size_t>(along == 2 ? 1 : 2);
-            const auto beside = [from = from](std::size_t axis) { return std::int64_t{(from >> axis & 1) != 0 ? 1 : -1}; };
+            const auto beside = [start = from](std::size_t axis) { return std::int64_t{(start >> axis & 1) != 0 ? 1 : -1}; };
             for (int k = 1; k < 4; ++k) {
                 Index3 other = place;
                 if ((k & 1) != 0) other[first] += beside(first);
