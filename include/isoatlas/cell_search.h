@@ -49,9 +49,12 @@ struct CellSearchCost {
     std::int64_t active = 0;
     std::int64_t cells = 0;  ///< looked at: reported, or compared with the isovalue and left out
     std::int64_t nodes = 0;  ///< of the search structure, without cells
+    // Of a structure in a file, else 0:
+    std::int64_t blocks = 0;      ///< read, each as often as it was
+    std::int64_t bytes_read = 0;  ///< of the file
 };
 
-/// A search structure over the cells of one volume, in memory.
+/// A search structure over the cells of one volume, in memory or in a file.
 class CellSearch {
 public:
     CellSearch() = default;
@@ -64,6 +67,8 @@ public:
     [[nodiscard]] virtual std::vector<CellId> active(double tau, CellSearchCost& cost) = 0;
     /// Of the structure, beside the samples and what a query needs while it runs.
     [[nodiscard]] virtual std::int64_t bytes() const = 0;
+    /// Of the file; 0: in memory.
+    [[nodiscard]] virtual std::int64_t file_bytes() const { return 0; }
 };
 
 /// The samples are borrowed: the volume must live as long as the result. Throws Error: resource (2^32 cells or more), cancelled. Cost: that

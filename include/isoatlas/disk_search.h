@@ -20,24 +20,17 @@ struct IntervalTreeFileOptions {
 void write_interval_tree(const std::string& path, const Volume& volume, const IntervalTreeFileOptions& options = {},
                          const Context& context = {});
 
-/// What a query has read.
-struct BlockReads {
-    std::int64_t blocks = 0;       ///< read, each as often as it was
-    std::int64_t node_blocks = 0;  ///< of them, nodes of the tree
-};
-
-/// An open tree. Blocks are read when a query needs them, two at a time in memory, and verified by their checksums.
-class IntervalTreeFile {
+/// An open tree. Blocks are read when a query needs them, two at a time in memory, and verified by their checksums. A node is a block.
+class IntervalTreeFile final : public CellSearch {
 public:
     /// Throws Error{input}: missing, not such a file, truncated, damaged.
     explicit IntervalTreeFile(const std::string& path);
-    IntervalTreeFile(IntervalTreeFile&&) noexcept;
-    IntervalTreeFile& operator=(IntervalTreeFile&&) noexcept;
-    ~IntervalTreeFile();
+    ~IntervalTreeFile() override;
 
-    /// Every active cell once, in any order. Throws Error: usage (tau is not a finite number), input (damaged).
-    [[nodiscard]] std::vector<CellId> active(double tau, CellSearchCost& cost, BlockReads& reads) const;
-    [[nodiscard]] std::int64_t file_bytes() const;
+    /// Throws Error{input}: damaged.
+    [[nodiscard]] std::vector<CellId> active(double tau, CellSearchCost& cost) override;
+    [[nodiscard]] std::int64_t bytes() const override;
+    [[nodiscard]] std::int64_t file_bytes() const override;
     [[nodiscard]] std::int64_t block_bytes() const;
     [[nodiscard]] std::int64_t cells() const;  ///< that are active at some isovalue
     [[nodiscard]] int slabs() const;           ///< children of a node

@@ -109,7 +109,6 @@ struct ComparedFile {
     std::int64_t block_bytes, file_bytes;
     double build_seconds, seconds;
     CellSearchCost cost;
-    BlockReads reads;
 };
 
 std::vector<ComparedFile> search_files(const Volume& volume, double tau, Stages& stages) {
@@ -117,11 +116,11 @@ std::vector<ComparedFile> search_files(const Volume& volume, double tau, Stages&
     const std::string path = folder.path() + "/cells.tree";
     std::vector<ComparedFile> all;
     for (const std::int64_t block_bytes : {4096, 65536}) {
-        ComparedFile one{block_bytes, 0, 0, 0, {}, {}};
+        ComparedFile one{block_bytes, 0, 0, 0, {}};
         const Context& context = stages.next("interval-tree-file");
         one.build_seconds = seconds_of([&] { write_interval_tree(path, volume, {.block_bytes = block_bytes}, context); });
-        const IntervalTreeFile file(path);
-        one.seconds = seconds_of([&] { (void)file.active(tau, one.cost, one.reads); });
+        IntervalTreeFile file(path);
+        one.seconds = seconds_of([&] { (void)file.active(tau, one.cost); });
         one.file_bytes = file.file_bytes();
         all.push_back(one);
     }
@@ -215,7 +214,7 @@ void print_files(Terminal& terminal, const std::vector<ComparedFile>& all) {
     for (const ComparedFile& one : all) {
         table.add({fmt::format("I/O-optimal interval tree, blocks of {} KiB", one.block_bytes / 1024), "3.8.6",
                    fmt::format("{:.1f}", 1e3 * one.build_seconds), fmt::format("{:.2f}", 1e3 * one.seconds), count_text(one.cost.cells),
-                   count_text(one.reads.blocks), count_text(one.reads.node_blocks), bytes_text(static_cast<double>(one.file_bytes))});
+                   count_text(one.cost.blocks), count_text(one.cost.nodes), bytes_text(static_cast<double>(one.file_bytes))});
     }
     table.print(terminal);
     terminal.out() << '\n';
@@ -229,8 +228,8 @@ Json json_of(const std::vector<ComparedFile>& all) {
                          {"build_seconds", one.build_seconds},
                          {"seconds", one.seconds},
                          {"cells", one.cost.cells},
-                         {"blocks", one.reads.blocks},
-                         {"node_blocks", one.reads.node_blocks}});
+                         {"blocks", one.cost.blocks},
+                         {"node_blocks", one.cost.nodes}});
     }
     return files;
 }

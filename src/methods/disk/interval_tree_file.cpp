@@ -180,13 +180,8 @@ private:
 template <class T>
 class Query {
 public:
-    Query(const BlockReader& file, double tau, CellSearchCost& cost, BlockReads& reads)
-        : file_(file),
-          tau_(tau),
-          cost_(cost),
-          reads_(reads),
-          in_block_(file.payload_bytes() / kEntryBytes<T>),
-          entries_(file.numbers()[kEntries]) {}
+    Query(const BlockReader& file, double tau, CellSearchCost& cost)
+        : file_(file), tau_(tau), cost_(cost), in_block_(file.payload_bytes() / kEntryBytes<T>), entries_(file.numbers()[kEntries]) {}
 
     std::vector<CellId> run() {
         std::int64_t at = file_.numbers()[kRoot], levels = file_.numbers()[kLevels];
@@ -217,8 +212,8 @@ private:
     }
 
     Node read_node(std::int64_t block) {
-        ++cost_.nodes, ++reads_.blocks, ++reads_.node_blocks;
-        const std::vector<std::byte> bytes = file_.read(block);
+        ++cost_.nodes;
+        const std::vector<std::byte> bytes = read(block);
         PayloadReader payload(bytes, file_);
         const auto keys = payload.get<std::int64_t>(), lists = payload.get<std::int64_t>();
         if (keys < 0 || keys >= file_.numbers()[kSlabs] || lists != (keys == 0 ? 1 : keys + 1)) file_.fail("a node has no such lists");
@@ -240,6 +235,12 @@ private:
         return node;
     }
 
+    std::vector<std::byte> read(std::int64_t block) {
+        ++cost_.blocks;
+        cost_.bytes_read += file_.block_bytes();
+        return file_.read(block);
+    }
+
     struct Take {
         bool is_active, goes_on;
     };
@@ -257,8 +258,7 @@ private:
     /// The block of the last entry stays in memory.
     CellInterval<T> entry(std::int64_t i) {
         if (const std::int64_t block = 1 + i / in_block_; block != block_) {
-            ++reads_.blocks;
-            bytes_ = file_.read(block);
+            bytes_ = read(block);
             block_ = block;
         }
         PayloadReader payload(std::span<const std::byte>(bytes_).subspan(static_cast<std::size_t>(i % in_block_ * kEntryBytes<T>)), file_);
@@ -269,7 +269,6 @@ private:
     const BlockReader& file_;
     double tau_;
     CellSearchCost& cost_;
-    BlockReads& reads_;
     std::int64_t in_block_, entries_, block_ = kNoBlock;
     std::vector<std::byte> bytes_;
     std::vector<CellId> found_;
@@ -295,19 +294,18 @@ IntervalTreeFile::IntervalTreeFile(const std::string& path) : data_(std::make_un
     if (numbers[kType] < 0 || numbers[kType] > static_cast<std::int64_t>(ValueType::f64))
         data_->file.fail("the type of the samples is unknown");
 }
-IntervalTreeFile::IntervalTreeFile(IntervalTreeFile&&) noexcept = default;
-IntervalTreeFile& IntervalTreeFile::operator=(IntervalTreeFile&&) noexcept = default;
 IntervalTreeFile::~IntervalTreeFile() = default;
 
-std::vector<CellId> IntervalTreeFile::active(double tau, CellSearchCost& cost, BlockReads& reads) const {
+std::vector<CellId> IntervalTreeFile::active(double tau, CellSearchCost& cost) {
     require_isovalue(tau);
-    cost = {}, reads = {};
+    cost = {};
     std::vector<CellId> found = visit_type(static_cast<ValueType>(data_->file.numbers()[kType]),
-                                           [&]<class T>(T) { return Query<T>(data_->file, tau, cost, reads).run(); });
+                                           [&]<class T>(T) { return Query<T>(data_->file, tau, cost).run(); });
     cost.active = std::ssize(found);
     return found;
 }
 
+std::int64_t IntervalTreeFile::bytes() const { return 2 * block_bytes(); }
 std::int64_t IntervalTreeFile::file_bytes() const { return data_->file.blocks() * data_->file.block_bytes(); }
 std::int64_t IntervalTreeFile::block_bytes() const { return data_->file.block_bytes(); }
 std::int64_t IntervalTreeFile::cells() const { return data_->file.numbers()[kCells]; }

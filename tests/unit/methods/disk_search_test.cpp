@@ -16,7 +16,6 @@
 namespace oracle {
 namespace {
 
-using isoatlas::BlockReads;
 using isoatlas::CellId;
 using isoatlas::CellSearchCost;
 using isoatlas::IntervalTreeFile;
@@ -36,8 +35,7 @@ class DiskSearch : public Stores {
 protected:
     std::vector<CellId> found(double tau) {
         CellSearchCost cost;
-        BlockReads reads;
-        return sorted(IntervalTreeFile(path_).active(tau, cost, reads));
+        return sorted(IntervalTreeFile(path_).active(tau, cost));
     }
 };
 
@@ -52,16 +50,15 @@ RC_GTEST_FIXTURE_PROP(DiskSearch, FindsTheActiveCells, ()) {
 TEST_F(DiskSearch, ReadsFewBlocks) {
     const isoatlas::Volume volume = isoatlas::make_phantom("random-field", {.size = 40});
     isoatlas::write_interval_tree(path_, volume, {.block_bytes = 1024});
-    const IntervalTreeFile file(path_);
+    IntervalTreeFile file(path_);
     const std::int64_t in_block = 1016 / 12, nodes = file.levels();
     EXPECT_GT(file.cells(), 50000);
     for (const double tau : {-2.0, -1.0, 0.0, 1.0, 2.0}) {
         CellSearchCost cost;
-        BlockReads reads;
-        EXPECT_EQ(sorted(file.active(tau, cost, reads)), expected(volume, tau));
-        EXPECT_LE(reads.node_blocks, nodes);
+        EXPECT_EQ(sorted(file.active(tau, cost)), expected(volume, tau));
+        EXPECT_LE(cost.nodes, nodes);
         // The active cells, and in each node two lists that end inside a block and the multi lists of each first slab.
-        EXPECT_LE(reads.blocks, cost.active / in_block + nodes * (3 + 2 * file.slabs() * file.slabs()));
+        EXPECT_LE(cost.blocks, cost.active / in_block + nodes * (3 + 2 * file.slabs() * file.slabs()));
     }
 }
 
