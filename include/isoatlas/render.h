@@ -39,6 +39,9 @@ struct SceneObject {
     Colour colour{};     ///< see palette()
     double opacity = 1;  ///< (0, 1], of one sheet seen head-on; 1: nothing shines through
     std::string name{};  ///< for the legend; empty: not in it
+    /// > 0, physical: the points of a surface without triangles are drawn as discs of this radius, each perpendicular to its normal (as
+    /// those of Dividing Cubes: docs/methods.md). Opaque only, and not closed where they are cut away.
+    double point_radius = 0;
 };
 
 /// Points x with dot(normal, x) > offset, in physical coordinates.
@@ -156,7 +159,7 @@ struct ScaleBar {
 /// pixel_size: physical size of a pixel.
 [[nodiscard]] ScaleBar scale_bar(double pixel_size, std::int64_t width, const std::string& unit);
 
-/// The picture. Throws Error: usage (sizes, opacity, sample distance, a 2D surface), cancelled.
+/// The picture. Throws Error: usage (sizes, opacity, sample distance, a 2D surface, points without normals or transparent), cancelled.
 /// Cost: O(triangles log triangles) once, then rays: some ten per pixel and sample.
 [[nodiscard]] Image render_scene(const Scene& scene, const Camera& camera, const RenderOptions& options = {}, const Context& context = {});
 

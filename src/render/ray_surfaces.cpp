@@ -94,6 +94,29 @@ struct RaySurfaces::Data {
         for_each_index(threads, triangles, [&](std::size_t i) {
             for (int a = 0; a < 3; ++a) t[3 * i + a] = static_cast<std::uint32_t>(surface.triangles[i][a]);
         });
+        attach(geometry, object);
+    }
+
+    /// Discs instead of triangles.
+    void add_points(std::int64_t object, const Frame& frame, int threads) {
+        const Surface& surface = drawn->objects[object].surface;
+        const std::size_t points = surface.points.size();
+        const auto radius = static_cast<float>(drawn->objects[object].point_radius / frame.radius);
+        RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_ORIENTED_DISC_POINT);
+        auto* p =
+            static_cast<float*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT4, 4 * sizeof(float), points));
+        auto* n =
+            static_cast<float*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_NORMAL, 0, RTC_FORMAT_FLOAT3, 3 * sizeof(float), points));
+        require();
+        for_each_index(threads, points, [&](std::size_t i) {
+            const Vec3 inside = frame.inside(surface.points[i]);
+            for (int a = 0; a < 3; ++a) p[4 * i + a] = static_cast<float>(inside[a]), n[3 * i + a] = surface.normals[i][a];
+            p[4 * i + 3] = radius;
+        });
+        attach(geometry, object);
+    }
+
+    void attach(RTCGeometry geometry, std::int64_t object) {
         rtcCommitGeometry(geometry);
         rtcAttachGeometry(scene, geometry);
         rtcReleaseGeometry(geometry);
@@ -104,6 +127,11 @@ struct RaySurfaces::Data {
     [[nodiscard]] Crossing crossing(double t, const RTCHit& hit) const {
         const std::int64_t object = objects[hit.geomID];
         const Surface& surface = drawn->objects[object].surface;
+        if (surface.triangles.empty()) {
+            const auto& n = surface.normals[hit.primID];
+            const Vec3 normal{n[0], n[1], n[2]};
+            return {t, object, normal, normal};
+        }
         // Embree's normal is e1 x e2, and our triangles are counter-clockwise seen from the Low side.
         const Vec3 face = unit({hit.Ng_x, hit.Ng_y, hit.Ng_z});
         if (surface.normals.empty()) return {t, object, face, face};
@@ -142,12 +170,14 @@ RaySurfaces::RaySurfaces(const Scene& scene, Which which, const Frame& frame, co
     data_->removed = &removed;
     for (std::size_t i = 0; i < scene.objects.size(); ++i) {
         const SceneObject& object = scene.objects[i];
-        if ((object.opacity >= 1) != (which == Which::opaque) || object.surface.triangles.empty()) continue;
+        const bool are_discs = object.surface.triangles.empty() && object.point_radius > 0 && !object.surface.points.empty();
+        if ((object.opacity >= 1) != (which == Which::opaque) || (object.surface.triangles.empty() && !are_discs)) continue;
         if (object.surface.points.size() >= std::numeric_limits<std::uint32_t>::max()) {
             throw Error(ErrorKind::unsupported,
                         {.what = "a surface of more than 2^32 points", .next = "draw fewer objects, or a part of the volume"});
         }
-        data_->add(static_cast<std::int64_t>(i), frame, threads);
+        are_discs ? data_->add_points(static_cast<std::int64_t>(i), frame, threads)
+                  : data_->add(static_cast<std::int64_t>(i), frame, threads);
     }
     with_threads(threads, [&] { rtcCommitScene(data_->scene); });
     data_->require();

@@ -17,10 +17,18 @@ constexpr PhasePlan<2> kDrawPhases{{"prepare surfaces", "draw"}};
 constexpr std::int64_t kTile = 16;
 constexpr std::int64_t kMaxSide = 16384;
 
+[[noreturn]] void refuse(const std::string& what, const std::string& expected) {
+    throw Error(ErrorKind::usage, {.what = what, .expected = expected});
+}
+
+void check_points(const SceneObject& object) {
+    if (object.surface.normals.size() != object.surface.points.size()) refuse("points without normals", "a normal for each point");
+    if (object.opacity < 1)
+        throw Error(ErrorKind::usage, {.what = "points cannot be transparent: where their discs overlap each would absorb",
+                                       .next = "draw them opaque, or a surface of triangles"});
+}
+
 void check_options(const Scene& scene, const RenderOptions& options) {
-    const auto refuse = [](const std::string& what, const std::string& expected) {
-        throw Error(ErrorKind::usage, {.what = what, .expected = expected});
-    };
     if (options.width < 1 || options.height < 1 || options.width > kMaxSide || options.height > kMaxSide)
         refuse("a picture of " + std::to_string(options.width) + " x " + std::to_string(options.height) + " pixels", "1 to 16384 each");
     if (options.samples < 1 || options.samples > 256) refuse("the number of samples per pixel is out of range", "1 to 256");
@@ -29,6 +37,7 @@ void check_options(const Scene& scene, const RenderOptions& options) {
     for (const SceneObject& object : scene.objects) {
         if (!(object.opacity > 0 && object.opacity <= 1)) refuse("the opacity of an object is out of range", "above 0, at most 1");
         if (!object.surface.segments.empty()) refuse("a curve of a 2D volume is not a surface", "surfaces of 3D volumes");
+        if (object.point_radius > 0 && object.surface.triangles.empty()) check_points(object);
     }
 }
 

@@ -26,6 +26,7 @@ double lift_of(const Scene& scene, const Frame& frame) {
     double sum = 0, count = 0;
     for (const SceneObject& object : scene.objects) {
         const auto& triangles = object.surface.triangles;
+        if (triangles.empty() && object.point_radius > 0) sum += object.point_radius / frame.radius, count += 1;
         const std::size_t step = triangles.size() / 1000 + 1;
         for (std::size_t i = 0; i < triangles.size(); i += step) {
             const auto& points = object.surface.points;
@@ -123,7 +124,8 @@ std::optional<Crossing> Tracer::cut_face(const Ray& ray, const Gap& gap, const s
     if (!(gap.end > 0) || !std::isfinite(gap.end)) return std::nullopt;
     std::vector<std::int8_t> inside(scene_.objects.size(), 0);
     for (const Crossing& crossing : crossings) {
-        if (crossing.t < gap.end) inside[crossing.object] = crossing.enters(ray) ? 1 : 0;
+        const bool is_closed = !scene_.objects[crossing.object].surface.triangles.empty();  // and not points
+        if (is_closed && crossing.t < gap.end) inside[crossing.object] = crossing.enters(ray) ? 1 : 0;
     }
     std::int64_t best = -1;
     for (std::size_t i = 0; i < inside.size(); ++i) {

@@ -87,6 +87,7 @@ struct PictureArguments {
     bool perspective = false, plain = false;
     bool volume = false, shadows = false, flat = false;
     double sample_distance = 1;  ///< of volume rendering, in voxels
+    int points = 0;              ///< divisions of Dividing Cubes; 0: surfaces are triangles
 };
 
 /// Throws Error{usage} that names the option and its valid values.

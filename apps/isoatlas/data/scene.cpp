@@ -82,6 +82,36 @@ Surface surface_of(Sides& sides, const Wanted& wanted) {
     return extract_label(source.volume(), *wanted.label, {.interpolant = source.interpolant(), .surface = options}, source.context());
 }
 
+/// Half the diagonal of a cell, the largest one.
+double half_diagonal(const VolumeInfo& info) {
+    double sum = 0;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        const std::vector<double>& at = info.geometry.coordinates[axis];
+        double step = info.geometry.spacing[axis];
+        for (std::size_t i = 1; i < at.size(); ++i) step = i == 1 ? std::abs(at[1] - at[0]) : std::max(step, std::abs(at[i] - at[i - 1]));
+        sum += step * step;
+    }
+    return std::sqrt(sum) / 2;
+}
+
+/// What Dividing Cubes makes; discs of the radius of a small cube's outer sphere leave no gaps.
+SceneObject points_of(const Arguments& arguments, Sides& sides, const Wanted& wanted) {
+    if (!wanted.objects.empty() || !wanted.contours.empty() || wanted.label)
+        throw Error(ErrorKind::usage, {.where = "--points",
+                                       .what = "Dividing Cubes knows no objects: it makes points of everything at an isovalue",
+                                       .next = "give isovalues alone: --tau T"});
+    Source& source = sides.source(wanted.polarity);
+    const int divisions = arguments.picture.points;
+    PointCloud cloud = divide_cubes(source.volume(), wanted.tau, divisions, source.context());
+    SceneObject object;
+    object.name = fmt::format("{}, {} points", wanted.name, count_text(std::ssize(cloud.points)));
+    object.surface.points = std::move(cloud.points), object.surface.normals = std::move(cloud.normals);
+    object.surface.tau = wanted.tau, object.surface.reported_tau = source.info().calibration.reported(wanted.tau);
+    object.surface.polarity = wanted.polarity, object.surface.unit = source.info().geometry.unit;
+    object.point_radius = half_diagonal(source.info()) / divisions;
+    return object;
+}
+
 std::vector<Wanted> wanted_of(const Arguments& arguments, Sides& sides) {
     const bool of_labels = arguments.verb == "render" && arguments.inputs.are_labels && !shows_isovalues(arguments.picture);
     if (of_labels) return wanted_labels(arguments, sides.main());
@@ -130,7 +160,8 @@ void choose_opacities(const PictureArguments& picture, std::vector<SceneObject>&
     for (std::size_t i = 0; i < objects.size(); ++i) {
         const bool cut = picture.cut != CutShape::none;
         const bool in_the_way = std::any_of(objects.begin(), objects.end(), [&](const SceneObject& o) { return hides(objects[i], o); });
-        objects[i].opacity = i < picture.opacities.size() ? picture.opacities[i] : in_the_way && !cut ? kGlass : 1;
+        const bool is_glass = in_the_way && !cut && picture.points == 0;
+        objects[i].opacity = i < picture.opacities.size() ? picture.opacities[i] : is_glass ? kGlass : 1;
     }
 }
 
@@ -212,13 +243,18 @@ Scene scene_of(const Arguments& arguments, Sides& sides) {
     const std::vector<Wanted> all = wanted_of(arguments, sides);
     if (!picture.volume) sides.release_trees();
     for (const Wanted& wanted : all) {
-        Surface surface = surface_of(sides, wanted);
-        if (surface.triangles.empty()) nothing_there(arguments, "there is no surface: " + wanted.name);
+        SceneObject object;
+        if (picture.points > 0)
+            object = points_of(arguments, sides, wanted);
+        else
+            object.surface = surface_of(sides, wanted), object.name = wanted.name;
+        if (object.surface.points.empty()) nothing_there(arguments, "there is no surface: " + wanted.name);
         const std::size_t i = scene.objects.size();
         const Colour colour = i < picture.colours.size() ? picture.colours[i]
                               : wanted.label             ? wanted.own
                                                          : palette(static_cast<std::int64_t>(i));
-        scene.objects.push_back({.surface = std::move(surface), .colour = colour, .opacity = 1, .name = wanted.name});
+        object.colour = colour;
+        scene.objects.push_back(std::move(object));
     }
     choose_opacities(picture, scene.objects);
     add_samples(arguments, source, scene);

@@ -37,6 +37,8 @@ void add_picture(CLI::App& app, Arguments& arguments, PictureWords& words) {
     add("--sample-distance", arguments.picture.sample_distance,
         "Volume rendering: distance of the samples along a ray, in voxels (1): longer is faster, and misses what is thin", "D")
         ->check(in_range(0.05, 16.0));
+    add("--points", arguments.picture.points, "Surfaces as points by Dividing Cubes: N small cubes along each axis of a cell", "N")
+        ->check(in_range(1, kMaxDivisions));
     add("--view", words.view, "auto, front, back, left, right, top, bottom, or angles AROUND,ABOVE in degrees", "FROM");
     add("--up", words.up, "Up direction of the picture: x, y, z, -x, -y, -z or X,Y,Z", "AXIS");
     add("--size", words.size, "Pixels: 768x768", "WxH");

@@ -39,6 +39,7 @@ Json to_json(const Arguments& arguments, Source& source, const Scene& scene, con
                            {"tau", object.surface.reported_tau},
                            {"opacity", object.opacity},
                            {"colour", {object.colour.red, object.colour.green, object.colour.blue}},
+                           {"points", object.surface.points.size()},
                            {"triangles", object.surface.triangles.size()}});
     }
     json["objects"] = std::move(objects);
@@ -88,7 +89,9 @@ Image upright(Image slice, const PictureArguments& picture) {
 std::string contents_text(const Scene& scene) {
     std::string text;
     const auto add = [&](const std::string& what) { text += (text.empty() ? "" : ", ") + what; };
-    if (!scene.objects.empty()) add(counted(static_cast<std::int64_t>(scene.objects.size()), "surface"));
+    const auto clouds = std::ranges::count_if(scene.objects, [](const SceneObject& object) { return object.surface.triangles.empty(); });
+    if (const std::int64_t surfaces = std::ssize(scene.objects) - clouds; surfaces > 0) add(counted(surfaces, "surface"));
+    if (clouds > 0) add(counted(clouds, "cloud") + " of points");
     if (!scene.slices.empty()) add(counted(static_cast<std::int64_t>(scene.slices.size()), "slice"));
     if (scene.volume.volume != nullptr) add("volume");
     return text;

@@ -67,6 +67,41 @@ TEST(Render, SilhouetteOfABallIsWhereGeometrySays) {
     EXPECT_NEAR(seen.high, middle[0] + half, 0.5);
 }
 
+/// Only its points, as discs that overlap.
+SceneObject as_points(Surface surface, double radius) {
+    surface.triangles.clear();
+    SceneObject points = object(std::move(surface));
+    points.point_radius = radius;
+    return points;
+}
+
+TEST(Render, PointsLookLikeTheirSurface) {
+    const Surface surface = ball({10, 0, 0}, 7, 1, 64);
+    const Scene triangles{.objects = {object(surface)}}, discs{.objects = {as_points(surface, 0.5)}};
+    const Camera camera{.target = {10, 0, 0}, .view = {.toward = {0, -1, 0}, .up = {0, 0, 1}}, .height = 20};
+    const RenderOptions options{.width = 100, .height = 100, .background = Background::transparent, .samples = 16};
+    const Image expected = render_scene(triangles, camera, options), seen = render_scene(discs, camera, options);
+    double difference = 0, covered = 0;
+    for (std::int64_t y = 0; y < 100; ++y) {
+        for (std::int64_t x = 0; x < 100; ++x) {
+            covered += alpha(expected, x, y);
+            for (int channel = 0; channel < 4; ++channel) difference += std::abs(expected.at(x, y)[channel] - seen.at(x, y)[channel]);
+        }
+    }
+    EXPECT_LT(difference / covered, 8);  // of 4 x 255: neighbouring discs meet at angles
+    EXPECT_NEAR(silhouette(render_scene(discs, camera, flat(100))).area, silhouette(render_scene(triangles, camera, flat(100))).area, 40);
+}
+
+TEST(Render, PointsAreNotClosedWhereTheyAreCut) {
+    const Scene cut{.objects = {as_points(ball({0, 0, 0}, 7, 1, 64), 0.3)}, .removed = {{{0, -1, 0}, 0}}};
+    const Camera camera{.view = {.toward = {0, -1, 0}, .up = {0, 0, 1}}, .height = 20};
+    const Image image = render_scene(cut, camera, {.width = 101, .height = 101, .background = Background::transparent});
+    const Image whole =
+        render_scene({.objects = cut.objects}, camera, {.width = 101, .height = 101, .background = Background::transparent});
+    EXPECT_GT(alpha(image, 50, 50), 0.99);  // the inside of the far half
+    EXPECT_NE(image.at(50, 30)[0], whole.at(50, 30)[0]);
+}
+
 TEST(Render, PerspectiveSilhouetteIsThatOfTheCone) {
     const Scene scene{.objects = {object(ball({0, 0, 0}, 1, 1))}};
     const Camera camera{.projection = Projection::perspective, .target = {0, 0, 0}, .view = {}, .height = 4, .distance = 3};
@@ -214,6 +249,12 @@ TEST(Render, RefusesWhatCannotBeDrawn) {
     EXPECT_THROW(static_cast<void>(render_scene(scene, camera, {.width = 0})), Error);
     EXPECT_THROW(static_cast<void>(render_scene(scene, camera, {.samples = 0})), Error);
     scene.objects[0].opacity = 0;
+    EXPECT_THROW(static_cast<void>(render_scene(scene, camera)), Error);
+    scene.objects[0] = as_points(ball({0, 0, 0}, 1, 1, 8), 0.5);
+    scene.objects[0].opacity = 0.5;
+    EXPECT_THROW(static_cast<void>(render_scene(scene, camera)), Error);
+    scene.objects[0].opacity = 1;
+    scene.objects[0].surface.normals.clear();
     EXPECT_THROW(static_cast<void>(render_scene(scene, camera)), Error);
     EXPECT_THROW(write_image("picture.bmp", Image(1, 1)), Error);
 }
