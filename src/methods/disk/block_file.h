@@ -25,6 +25,8 @@ public:
     /// magic: 16 letters.
     BlockWriter(const std::string& path, std::string_view magic, std::int64_t block_bytes);
     [[nodiscard]] std::int64_t payload_bytes() const { return block_bytes_ - kBlockChecksum; }
+    /// So far, the header included: the number of the next one.
+    [[nodiscard]] std::int64_t blocks() const { return blocks_; }
     /// At most payload_bytes(), the rest is zeros. Returns the number of the block.
     std::int64_t add(std::span<const std::byte> payload);
     void commit(const HeaderNumbers& numbers);
