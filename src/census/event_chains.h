@@ -33,6 +33,8 @@ public:
     [[nodiscard]] double value(EventId event) const { return value_[event]; }
     /// The lowest common ancestor: the highest event that both become part of.
     [[nodiscard]] EventId meeting(EventId a, EventId b) const;
+    /// The event of its heavy path that is nearest to the root: the name of the path.
+    [[nodiscard]] EventId head(EventId event) const { return head_[event]; }
     /// Position of an event on the heavy paths.
     [[nodiscard]] std::int64_t position(EventId event) const { return position_[event]; }
 

@@ -1,26 +1,16 @@
 #include "census/zone_files.h"
 
 #include <algorithm>
-#include <array>
 #include <atomic>
 
 #include "base/paced_fill.h"
 #include "census/event_chains.h"
 #include "census/interval_counts.h"
+#include "census/waiting_voxels.h"
 #include "field/slab_work.h"
-#include "levelset/volume_cells.h"
 
 namespace isoatlas {
 namespace {
-
-/// The zones in which a voxel begins to wait: those of its neighbours above, without those that follow another one.
-struct Tops {
-    std::array<EventId, 6> event;
-    std::size_t count = 0;
-    EventId end = EventId::none();  ///< of all its chains
-
-    [[nodiscard]] std::span<const EventId> list() const { return std::span(event).first(count); }
-};
 
 class Counter {
 public:
@@ -35,29 +25,17 @@ public:
 
     /// Points of the slices [z_begin, z_end), and cells whose first corner lies there.
     void run(const Slab& slab) {
-        const Extent& extent = volume_.info.extent;
-        std::vector<Tops> lower, upper = slice(slab.z_begin);
-        std::vector<Chain> chains, pieces;
-        for (std::int64_t z = slab.z_begin; z < slab.z_end; ++z) {
-            lower.swap(upper);
-            for (const Tops& tops : lower) count_points(tops);
-            if (z + 1 < extent.size[2]) upper = slice(z + 1);
-            for_cells_of_slice(extent, z, [&](std::span<const std::int64_t> corners) {
-                chains.clear(), pieces.clear();
-                double highest = volume_.value(corners[0]);
-                for (const std::int64_t voxel : corners) {
-                    const std::int64_t in_slice = voxel - z * extent.slice();
-                    const Tops& tops = in_slice < extent.slice() ? lower[static_cast<std::size_t>(in_slice)]
-                                                                 : upper[static_cast<std::size_t>(in_slice - extent.slice())];
-                    for (const EventId top : tops.list()) {
-                        if (std::ranges::find(chains, Chain{top, tops.end}) == chains.end()) chains.push_back({top, tops.end});
-                    }
-                    highest = std::max(highest, volume_.value(voxel));
-                }
-                events_.cut_apart(chains, pieces);
-                for (const Chain& piece : pieces) count_cell(piece, highest);
-            });
-        }
+        std::vector<Chain> pieces;
+        WaitingVoxels(volume_, analysis_, events_)
+            .run(
+                slab, [&](const Tops& tops) { count_points(tops); },
+                [&](std::span<const std::int64_t> corners, std::span<const Tops* const> tops) {
+                    double highest = volume_.value(corners[0]);
+                    for (const std::int64_t voxel : corners) highest = std::max(highest, volume_.value(voxel));
+                    pieces.clear();
+                    cut_into_pieces(events_, tops, pieces);
+                    for (const Chain& piece : pieces) count_cell(piece, highest);
+                });
     }
 
     [[nodiscard]] ZoneFiles result() {
@@ -76,44 +54,6 @@ public:
     }
 
 private:
-    [[nodiscard]] std::vector<Tops> slice(std::int64_t z) const {
-        const Extent& extent = volume_.info.extent;
-        std::vector<Tops> tops(static_cast<std::size_t>(extent.slice()));
-        for (std::int64_t i = 0; i < extent.slice(); ++i) tops[static_cast<std::size_t>(i)] = tops_of(z * extent.slice() + i);
-        return tops;
-    }
-
-    [[nodiscard]] Tops tops_of(std::int64_t voxel) const {
-        const Extent& extent = volume_.info.extent;
-        const Index3 at = extent.voxel(voxel), step{1, extent.size[0], extent.slice()};
-        const double own = volume_.value(voxel);
-        Tops tops;
-        tops.end = events_.below(analysis_.zone(VoxelId(voxel)));
-        for (std::size_t axis = 0; axis < 3; ++axis) {
-            for (const std::int64_t side : {std::int64_t{-1}, std::int64_t{1}}) {
-                const std::int64_t there = at[axis] + side, other = voxel + side * step[axis];
-                if (there < 0 || there >= extent.size[axis] || !(volume_.value(other) > own)) continue;
-                add_top(tops, analysis_.zone(VoxelId(other)));
-            }
-        }
-        if (tops.count == 0) add_top(tops, analysis_.zone(VoxelId(voxel)));
-        return tops;
-    }
-
-    void add_top(Tops& tops, EventId event) const {
-        for (std::size_t i = 0; i < tops.count;) {
-            EventId& other = tops.event[i];
-            const EventId meeting = other == event ? event : events_.meeting(other, event);
-            if (meeting == event) return;
-            if (meeting == other) {
-                other = tops.event[--tops.count];
-            } else {
-                ++i;
-            }
-        }
-        tops.event[tops.count++] = event;
-    }
-
     /// +1 where a chain begins, -1 where it comes into one before or ends: sums over subtrees are points.
     void count_points(const Tops& tops) {
         for (std::size_t i = 0; i < tops.count; ++i) {
