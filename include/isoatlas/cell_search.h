@@ -8,11 +8,11 @@
 #include <cstdint>
 #include <memory>
 #include <span>
-#include <string_view>
 #include <vector>
 
 #include "isoatlas/context.h"
 #include "isoatlas/id.h"
+#include "isoatlas/method_info.h"
 #include "isoatlas/volume.h"
 
 namespace isoatlas {
@@ -32,14 +32,7 @@ enum class SearchMethod : std::uint8_t {
     chessboard_interval_tree,
 };
 
-struct SearchMethodInfo {
-    SearchMethod method;
-    std::string_view name;     ///< "interval-tree"
-    std::string_view title;    ///< "Interval tree"
-    std::string_view section;  ///< of the dissertation; empty: none
-    std::string_view source;   ///< authors, title, year
-    std::string_view cost;     ///< of a query, as its source states it: n cells, k of them active
-};
+using SearchMethodInfo = MethodInfo<SearchMethod>;
 /// All of them, brute force first.
 [[nodiscard]] std::span<const SearchMethodInfo> search_methods();
 [[nodiscard]] const SearchMethodInfo& info_of(SearchMethod method);

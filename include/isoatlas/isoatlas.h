@@ -43,6 +43,7 @@
 #include "isoatlas/labels.h"
 #include "isoatlas/locate.h"
 #include "isoatlas/measures.h"
+#include "isoatlas/method_info.h"
 #include "isoatlas/navigator.h"
 #include "isoatlas/nested_labels.h"
 #include "isoatlas/object_names.h"

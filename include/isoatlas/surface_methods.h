@@ -1,14 +1,15 @@
 // Methods that make the surface of an isovalue, each as its paper describes it, with its defects.
 //
 // Surfaces are open where they leave the volume: the methods know nothing outside of it. A sample is High when its value is at least tau.
-// In the literature: chapter 3 of the dissertation, a survey of all of these; docs/methods.md.
+// In the literature: chapter 3 of the dissertation, a survey of most of these; docs/methods.md.
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <span>
-#include <string_view>
 
 #include "isoatlas/context.h"
+#include "isoatlas/method_info.h"
 #include "isoatlas/surface.h"
 #include "isoatlas/volume.h"
 
@@ -18,30 +19,19 @@ enum class SurfaceMethod : std::uint8_t {
     connected_contours,
     marching_cubes,
     asymptotic_decider,
+    dividing_cubes,  ///< makes points
     five_tetrahedra,
     six_tetrahedra,
     spider_web,
     trilinear
 };
 
-struct SurfaceMethodInfo {
-    SurfaceMethod method;
-    std::string_view name;     ///< "six-tetrahedra"
-    std::string_view title;    ///< "Six tetrahedra a cell"
-    std::string_view section;  ///< of the dissertation; empty: none
-    std::string_view source;   ///< authors, title, year
-};
+using SurfaceMethodInfo = MethodInfo<SurfaceMethod>;
 /// In the order of the dissertation; the last two are the product.
 [[nodiscard]] std::span<const SurfaceMethodInfo> surface_methods();
 [[nodiscard]] const SurfaceMethodInfo& info_of(SurfaceMethod method);
-
-/// Points in physical coordinates, without normals and ids. Throws Error: usage (tau is not a finite number; a 2D volume), cancelled. Cost:
-/// O(cells); the comparators use one thread.
-[[nodiscard]] Surface extract_by(SurfaceMethod method, const Volume& volume, double tau, const Context& context = {});
-
-/// Edges with one triangle that do not lie in an end of the volume: the rims of holes. inspect() (isoatlas/surface.h) tells the rest. info:
-/// of the volume that the surface was made from. Cost: a sort of the edges.
-[[nodiscard]] std::int64_t count_hole_edges(const Surface& surface, const VolumeInfo& info);
+/// Does it make points instead of triangles?
+[[nodiscard]] constexpr bool makes_points(SurfaceMethod method) { return method == SurfaceMethod::dividing_cubes; }
 
 /// A surface as points with normals, which point to lower values.
 struct PointCloud {
@@ -49,9 +39,43 @@ struct PointCloud {
     Array<std::array<float, 3>> normals;  ///< unit length
 };
 
+/// What an extraction has looked at. Cells as in cell_search.h; of connected contours: squares of slices.
+struct ExtractionCost {
+    std::int64_t active = 0;
+    std::int64_t cells = 0;  ///< looked at
+    std::int64_t bytes = 0;  ///< held at most, beside the samples and the result: counted from sizes of containers
+};
+
+/// Of a method that makes points the surface is empty, of the others the cloud is.
+struct Extraction {
+    Surface surface;  ///< physical coordinates, without normals and ids
+    PointCloud points;
+    ExtractionCost cost;
+};
+
 inline constexpr int kMaxDivisions = 64;
-/// Dividing Cubes (section 3.3): the small cubes with Highs and Lows, `divisions` of them along each axis of a cell (1 to kMaxDivisions).
-/// Errors: as extract_by(). Cost: O(cells + active cells * divisions^3).
-[[nodiscard]] PointCloud divide_cubes(const Volume& volume, double tau, int divisions, const Context& context = {});
+struct ExtractorOptions {
+    int divisions = 2;  ///< Dividing Cubes: small cubes along each axis of a cell, 1 to kMaxDivisions
+};
+
+/// A method on the samples of one volume.
+class Extractor {
+public:
+    Extractor() = default;
+    Extractor(const Extractor&) = delete;
+    Extractor& operator=(const Extractor&) = delete;
+    virtual ~Extractor() = default;
+
+    /// tau: a stored value. Throws Error: usage (not a finite number), cancelled. Cost: O(cells + result); the comparators use one thread.
+    /// Dividing Cubes: O(cells + active cells * divisions^3).
+    [[nodiscard]] virtual Extraction extract(double tau, const Context& context = {}) const = 0;
+};
+
+/// The samples are borrowed: the volume must live as long as the result. Throws Error{usage}: a 2D volume, divisions out of range.
+[[nodiscard]] std::unique_ptr<Extractor> make_extractor(SurfaceMethod method, const Volume& volume, const ExtractorOptions& options = {});
+
+/// Edges with one triangle that do not lie in an end of the volume: the rims of holes. inspect() (isoatlas/surface.h) tells the rest. info:
+/// of the volume that the surface was made from. Cost: a sort of the edges.
+[[nodiscard]] std::int64_t count_hole_edges(const Surface& surface, const VolumeInfo& info);
 
 }  // namespace isoatlas

@@ -46,7 +46,7 @@ PUBLIC = {
     "server": "client server",
     "phantom": "phantom",
     "verify": "verify",
-    "methods/search": "cell_search",
+    "methods/search": "cell_search method_info",
     "methods/disk": "disk_search",
     "methods/surfaces": "surface_methods",
 }

@@ -86,7 +86,8 @@ std::vector<ComparedPoints> make_points(const Volume& volume, double tau, Stages
     for (int divisions = 1; divisions <= 4 && volume.info.extent.rank == 3; divisions *= 2) {
         PointCloud cloud;
         const Context& context = stages.next("dividing-cubes");
-        const double seconds = seconds_of([&] { cloud = divide_cubes(volume, tau, divisions, context); });
+        const double seconds = seconds_of(
+            [&] { cloud = make_extractor(SurfaceMethod::dividing_cubes, volume, {.divisions = divisions})->extract(tau, context).points; });
         all.push_back({divisions, seconds, std::ssize(cloud.points)});
     }
     return all;
@@ -96,9 +97,10 @@ std::vector<ComparedSurface> make_surfaces(const Volume& volume, double tau, Sta
     std::vector<ComparedSurface> all;
     if (volume.info.extent.rank != 3) return all;
     for (const SurfaceMethodInfo& info : surface_methods()) {
+        if (makes_points(info.method)) continue;
         Surface surface;
         const Context& context = stages.next(info.name);
-        const double seconds = seconds_of([&] { surface = extract_by(info.method, volume, tau, context); });
+        const double seconds = seconds_of([&] { surface = make_extractor(info.method, volume)->extract(tau, context).surface; });
         all.push_back({&info, seconds, inspect(surface.points, surface.triangles), count_hole_edges(surface, volume.info)});
     }
     return all;

@@ -37,7 +37,7 @@ Contour contour_of(std::vector<Vec3> corners) {
 }
 
 /// Of slice z; samples outside of it are Low, so that all are closed.
-std::vector<Contour> contours_of(const Volume& volume, std::int64_t z, double tau, const Context& context) {
+std::vector<Contour> contours_of(const Volume& volume, std::int64_t z, double tau, const Context& context, ExtractionCost& cost) {
     const Extent& extent = volume.info.extent;
     const Surface curves = visit_samples(volume, [&]<class T>(std::span<const T> samples) {
         const auto slice = samples.subspan(static_cast<std::size_t>(z * extent.slice()), static_cast<std::size_t>(extent.slice()));
@@ -45,6 +45,8 @@ std::vector<Contour> contours_of(const Volume& volume, std::int64_t z, double ta
         options.surface.normals = options.surface.ids = false;
         return extract(make_volume<T>({2, {extent.size[0], extent.size[1], 1}}, slice), tau, options, context);
     });
+    cost.cells += (extent.size[0] + 1) * (extent.size[1] + 1);
+    cost.active += std::ssize(curves.segments);  // a square with two counts twice
     std::vector<std::int64_t> next(curves.points.size(), -1);
     for (const auto& [from, to] : curves.segments) next[static_cast<std::size_t>(from)] = to;
     std::vector<Contour> contours;
@@ -57,6 +59,12 @@ std::vector<Contour> contours_of(const Volume& volume, std::int64_t z, double ta
         if (corners.size() >= 3) contours.push_back(contour_of(std::move(corners)));
     }
     return contours;
+}
+
+std::int64_t bytes_of(const std::vector<Contour>& contours) {
+    std::size_t bytes = 0;
+    for (const Contour& one : contours) bytes += sizeof(Contour) + one.corners.size() * (sizeof(Vec3) + sizeof(std::int64_t));
+    return static_cast<std::int64_t>(bytes);
 }
 
 bool is_inside(const Vec3& p, const std::vector<Vec3>& polygon) {
@@ -104,19 +112,22 @@ void add_strip(const Contour& lower, const Contour& upper, Surface& surface) {
 
 }  // namespace
 
-void connect_contours(const Volume& volume, double tau, const Context& context, Surface& surface) {
+Extraction ConnectedContours::extract(double tau, const Context& context) const {
+    Extraction result;
     std::vector<Contour> below;
-    for (std::int64_t z = 0; z < volume.info.extent.size[2]; ++z) {
+    for (std::int64_t z = 0; z < volume_.info.extent.size[2]; ++z) {
         stop_if_cancelled(context);
-        std::vector<Contour> contours = contours_of(volume, z, tau, context);
-        add_points(contours, volume.info.geometry, surface);
+        std::vector<Contour> contours = contours_of(volume_, z, tau, context, result.cost);
+        add_points(contours, volume_.info.geometry, result.surface);
         for (const Contour& lower : below) {
             for (const Contour& upper : contours) {
-                if (overlap(lower, upper)) add_strip(lower, upper, surface);
+                if (overlap(lower, upper)) add_strip(lower, upper, result.surface);
             }
         }
+        result.cost.bytes = std::max(result.cost.bytes, bytes_of(below) + bytes_of(contours));
         below = std::move(contours);
     }
+    return result;
 }
 
 }  // namespace isoatlas

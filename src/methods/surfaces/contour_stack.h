@@ -5,11 +5,18 @@
 // branches are what the method does not solve. Where objects begin and end the surface stays open. In the literature: as tiling.h.
 #pragma once
 
-#include "isoatlas/surface.h"
+#include "isoatlas/surface_methods.h"
 
 namespace isoatlas {
 
 /// Triangles are counter-clockwise seen from the Lows, in voxel coordinates that are right-handed.
-void connect_contours(const Volume& volume, double tau, const Context& context, Surface& surface);
+class ConnectedContours final : public Extractor {
+public:
+    explicit ConnectedContours(const Volume& volume) : volume_(volume) {}
+    Extraction extract(double tau, const Context& context) const override;
+
+private:
+    const Volume& volume_;
+};
 
 }  // namespace isoatlas

@@ -1,14 +1,10 @@
-// Dividing Cubes (section 3.3): an active cell is divided into small cubes, whose corners get values by trilinear interpolation; cubes with
-// Highs and Lows become points, with the gradient interpolated from the samples of the cell.
-// In the literature: Cline, Lorensen, Ludke, Crawford, Teeter, Two algorithms for the three-dimensional reconstruction of tomograms, 1988.
+#include "methods/surfaces/dividing_cubes.h"
+
 #include <algorithm>
 #include <cmath>
 
 #include "base/cancel.h"
 #include "field/volume_view.h"
-#include "isoatlas/environment.h"
-#include "isoatlas/error.h"
-#include "isoatlas/surface_methods.h"
 #include "mesh/physical_map.h"
 #include "methods/surfaces/edge_points.h"
 
@@ -35,11 +31,12 @@ public:
     Divider(const VolumeInfo& info, std::span<const T> samples, double tau, int divisions, PointCloud& cloud)
         : info_(info), samples_(samples), tau_(tau), divisions_(divisions), map_(info.geometry, info.extent), cloud_(cloud) {}
 
-    void divide(const Index3& cell) {
+    /// Returns whether the cell is active.
+    bool divide(const Index3& cell) {
         Corners values;
         for (int corner = 0; corner < 8; ++corner) values[static_cast<std::size_t>(corner)] = value(corner_of(cell, corner));
         const auto [low, high] = std::ranges::minmax(values);
-        if (!(low < tau_ && tau_ <= high)) return;
+        if (!(low < tau_ && tau_ <= high)) return false;
         std::array<Corners, 3> slopes;
         for (int corner = 0; corner < 8; ++corner) {
             for (std::size_t axis = 0; axis < 3; ++axis)
@@ -51,6 +48,7 @@ public:
                 for (int x = 0; x < divisions_; ++x) add_cube(cell, values, slopes, {x * step, y * step, z * step}, step);
             }
         }
+        return true;
     }
 
 private:
@@ -94,23 +92,20 @@ private:
 
 }  // namespace
 
-PointCloud divide_cubes(const Volume& volume, double tau, int divisions, const Context& context) {
-    const EnvironmentScope scope(context);
-    require_surface(volume, tau);
-    if (divisions < 1 || divisions > kMaxDivisions)
-        throw Error(ErrorKind::usage, {.where = "divisions of a cell", .expected = "1 to " + std::to_string(kMaxDivisions)});
-    PointCloud cloud;
-    visit_samples(VolumeView(volume), [&]<class T>(std::span<const T> samples) {
-        Divider<T> divider(volume.info, samples, tau, divisions, cloud);
-        const Index3 cells = volume.info.extent.size - 1;
+Extraction DividingCubes::extract(double tau, const Context& context) const {
+    Extraction result;
+    const Index3 cells = volume_.info.extent.size - 1;
+    visit_samples(volume_, [&]<class T>(std::span<const T> samples) {
+        Divider<T> divider(volume_.info, samples, tau, divisions_, result.points);
         for (std::int64_t z = 0; z < cells[2]; ++z) {
             stop_if_cancelled(context);
             for (std::int64_t y = 0; y < cells[1]; ++y) {
-                for (std::int64_t x = 0; x < cells[0]; ++x) divider.divide({x, y, z});
+                for (std::int64_t x = 0; x < cells[0]; ++x) result.cost.active += static_cast<std::int64_t>(divider.divide({x, y, z}));
             }
         }
     });
-    return cloud;
+    result.cost.cells = cells.product();
+    return result;
 }
 
 }  // namespace isoatlas

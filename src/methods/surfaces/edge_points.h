@@ -9,17 +9,19 @@
 
 namespace isoatlas {
 
-/// Throws Error{usage}: an isovalue that is none, an image.
-inline void require_surface(const Volume& volume, double tau) {
+/// Throws Error{usage}: an isovalue that is none.
+inline void require_isovalue(double tau) {
     if (!std::isfinite(tau))
         throw Error(ErrorKind::usage, {.what = "the isovalue is not a finite number", .next = "give a finite isovalue"});
-    if (volume.info.extent.rank != 3)
-        throw Error(ErrorKind::usage,
-                    {.where = volume.info.path, .what = "an image has curves, not surfaces", .next = "choose a 3D volume"});
 }
 
 /// Where tau lies between two samples, linearly: from is High, to is Low, and the point is at `from` where they are equal.
 [[nodiscard]] inline double part_of_edge(double from, double to, double tau) { return (from - tau) / (from - to); }
+
+/// Sample of a corner of a cell (field/cell.h).
+[[nodiscard]] inline Index3 corner_of(const Index3& cell, int corner) {
+    return {cell[0] + (corner & 1), cell[1] + (corner >> 1 & 1), cell[2] + (corner >> 2)};
+}
 
 template <class T>
 class EdgePoints {
@@ -47,6 +49,17 @@ public:
     [[nodiscard]] double value(const Index3& sample) const { return value(info_.extent.index(sample)); }
     [[nodiscard]] bool is_high(const Index3& sample) const { return value(sample) >= tau_; }
     [[nodiscard]] double tau() const { return tau_; }
+    /// Highs of a cell, a bit for each corner.
+    [[nodiscard]] int pattern(const Index3& cell) const {
+        int highs = 0;
+        for (int corner = 0; corner < 8; ++corner) highs |= static_cast<int>(is_high(corner_of(cell, corner))) << corner;
+        return highs;
+    }
+    /// Of the table of points: a node with two links each, and a pointer for each bucket.
+    [[nodiscard]] std::int64_t bytes() const {
+        constexpr std::size_t kNode = sizeof(typename decltype(known_)::value_type) + 2 * sizeof(void*);
+        return static_cast<std::int64_t>(known_.size() * kNode + known_.bucket_count() * sizeof(void*));
+    }
 
 private:
     const VolumeInfo& info_;
@@ -55,10 +68,5 @@ private:
     Surface& surface_;
     std::unordered_map<std::uint64_t, std::int64_t> known_;
 };
-
-/// Sample of a corner of a cell (field/cell.h).
-[[nodiscard]] inline Index3 corner_of(const Index3& cell, int corner) {
-    return {cell[0] + (corner & 1), cell[1] + (corner >> 1 & 1), cell[2] + (corner >> 2)};
-}
 
 }  // namespace isoatlas

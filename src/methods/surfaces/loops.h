@@ -15,12 +15,10 @@ namespace isoatlas {
 
 enum class FaceRule : std::uint8_t { fewer_are_separate, asymptotic_decider };
 
-/// Adds the triangles of a cell.
+/// Adds the triangles of an active cell.
 template <class T>
 void add_loops(const Index3& cell, FaceRule rule, EdgePoints<T>& points) {
-    int pattern = 0;
-    for (int corner = 0; corner < 8; ++corner) pattern |= static_cast<int>(points.is_high(corner_of(cell, corner))) << corner;
-    if (pattern == 0 || pattern == 255) return;
+    const int pattern = points.pattern(cell);
     int joined = rule == FaceRule::fewer_are_separate && std::popcount(static_cast<unsigned>(pattern)) > 4 ? 63 : 0;
     for (int face = 0; face < 6 && rule == FaceRule::asymptotic_decider; ++face) {
         if (!face_is_split(pattern, face)) continue;

@@ -57,4 +57,10 @@ void add_tetrahedron(const Index3& cell, const Tetrahedron& corners, EdgePoints<
     if (ring[3] >= 0) add(0, 2, 3);
 }
 
+/// Adds the triangles of a cell.
+template <class T>
+void add_tetrahedra(const Index3& cell, bool five, EdgePoints<T>& points) {
+    for (const Tetrahedron& corners : tetrahedra_of(cell, five)) add_tetrahedron(cell, corners, points);
+}
+
 }  // namespace isoatlas

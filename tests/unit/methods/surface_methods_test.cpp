@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
-#include "isoatlas/phantom.h"
+#include "isoatlas/cell_search.h"
 #include "oracle/mesh_checks.h"
 
 namespace oracle {
@@ -13,6 +13,11 @@ namespace {
 using isoatlas::Surface;
 using isoatlas::SurfaceMethod;
 using isoatlas::SurfaceReport;
+
+isoatlas::Extraction extraction_by(SurfaceMethod method, const isoatlas::Volume& volume, double tau, int divisions = 2) {
+    return isoatlas::make_extractor(method, volume, {.divisions = divisions})->extract(tau);
+}
+Surface extract_by(SurfaceMethod method, const isoatlas::Volume& volume, double tau) { return extraction_by(method, volume, tau).surface; }
 
 SurfaceReport report_of(const Surface& surface) { return isoatlas::inspect(surface.points, surface.triangles); }
 
@@ -42,14 +47,15 @@ TEST(SurfaceMethods, MakeABall) {
     const isoatlas::Volume volume = ball(24);
     const double exact = 4.0 / 3 * 3.14159265358979 * 9 * 9 * 9;
     for (const isoatlas::SurfaceMethodInfo& info : isoatlas::surface_methods()) {
+        EXPECT_EQ(&isoatlas::info_of(info.method), &info);
         if (info.method == SurfaceMethod::connected_contours) continue;  // open where the ball begins and ends
-        const Surface surface = isoatlas::extract_by(info.method, volume, -9);
+        if (isoatlas::makes_points(info.method)) continue;
+        const Surface surface = extract_by(info.method, volume, -9);
         const SurfaceReport report = report_of(surface);
         EXPECT_EQ(report.boundary_edges, 0) << info.name;
         EXPECT_EQ(report.misoriented_edges, 0) << info.name;
         EXPECT_EQ(report.component_chi, std::vector<std::int64_t>{2}) << info.name;
         EXPECT_NEAR(enclosed(surface) / exact, 1, 0.01) << info.name;
-        EXPECT_EQ(&isoatlas::info_of(info.method), &info);
     }
 }
 
@@ -57,9 +63,7 @@ TEST(SurfaceMethods, MakeABall) {
 TEST(SurfaceMethods, MarchingCubesHasHoles) {
     std::vector<double> values{0, 1, 0, 1, 0, 1, 0, 0, 1, 0, 1, 1};
     const isoatlas::Volume volume = isoatlas::make_volume<double>({3, {3, 2, 2}}, values);
-    const auto holes = [&](SurfaceMethod method) {
-        return isoatlas::count_hole_edges(isoatlas::extract_by(method, volume, 0.6), volume.info);
-    };
+    const auto holes = [&](SurfaceMethod method) { return isoatlas::count_hole_edges(extract_by(method, volume, 0.6), volume.info); };
     EXPECT_GT(holes(SurfaceMethod::marching_cubes), 0);
     for (const SurfaceMethod method : {SurfaceMethod::asymptotic_decider, SurfaceMethod::five_tetrahedra, SurfaceMethod::six_tetrahedra,
                                        SurfaceMethod::spider_web, SurfaceMethod::trilinear})
@@ -74,11 +78,30 @@ TEST(SurfaceMethods, TetrahedraSeeAnotherObjectInAMirror) {
         mirrored[static_cast<std::size_t>(3 - x + 4 * (y + 4 * z))] = 1;
     }
     const auto components = [](SurfaceMethod method, const std::vector<double>& of) {
-        return report_of(isoatlas::extract_by(method, isoatlas::make_volume<double>({3, {4, 4, 4}}, of), 0.4)).component_chi.size();
+        return report_of(extract_by(method, isoatlas::make_volume<double>({3, {4, 4, 4}}, of), 0.4)).component_chi.size();
     };
     EXPECT_EQ(components(SurfaceMethod::six_tetrahedra, values), 1U);
     EXPECT_EQ(components(SurfaceMethod::six_tetrahedra, mirrored), 2U);
     EXPECT_EQ(components(SurfaceMethod::trilinear, values), components(SurfaceMethod::trilinear, mirrored));
+}
+
+RC_GTEST_PROP(SurfaceMethodsOf, AnyVolumeCountWhatTheyLookAt, ()) {
+    Grid grid = *arbitrary_grid(6, 100);
+    grid.rank = 3;
+    const isoatlas::Volume volume = to_volume(grid, arbitrary_type(grid));
+    for (const double tau : interesting_values(elements_of(grid, isoatlas::Interpolant::faces))) {
+        isoatlas::CellSearchCost brute_force;
+        (void)isoatlas::make_cell_search(isoatlas::SearchMethod::brute_force, volume)->active(tau, brute_force);
+        for (const isoatlas::SurfaceMethodInfo& info : isoatlas::surface_methods()) {
+            if (info.method == SurfaceMethod::connected_contours) continue;  // looks at squares
+            const isoatlas::Extraction found = extraction_by(info.method, volume, tau);
+            RC_ASSERT(found.cost.cells == brute_force.cells);
+            RC_ASSERT(found.cost.active == brute_force.active);
+            const auto triangles = found.surface.triangles.size(), points = found.points.points.size();
+            RC_ASSERT((isoatlas::makes_points(info.method) ? triangles : points) == 0U);
+            RC_ASSERT((found.cost.active == 0) == (triangles + points == 0U));
+        }
+    }
 }
 
 RC_GTEST_PROP(SurfaceMethodsOf, AnyVolumeAreWatertightButTheOldest, ()) {
@@ -88,7 +111,8 @@ RC_GTEST_PROP(SurfaceMethodsOf, AnyVolumeAreWatertightButTheOldest, ()) {
     for (const double tau : interesting_values(elements_of(grid, isoatlas::Interpolant::faces))) {
         for (const isoatlas::SurfaceMethodInfo& info : isoatlas::surface_methods()) {
             if (info.method == SurfaceMethod::marching_cubes || info.method == SurfaceMethod::connected_contours) continue;
-            const Surface surface = isoatlas::extract_by(info.method, volume, tau);
+            if (isoatlas::makes_points(info.method)) continue;
+            const Surface surface = extract_by(info.method, volume, tau);
             const std::string where = std::string(info.name) + " at " + std::to_string(tau);
             const SurfaceReport report = report_of(surface);
             if (report.misoriented_edges != 0) RC_FAIL(where + ": triangles are not turned alike");
@@ -114,17 +138,17 @@ isoatlas::Volume columns(bool branch) {
 
 TEST(SurfaceMethods, ContoursConnectOneWithOneAndFailAtBranches) {
     const isoatlas::Volume one = columns(false);
-    const Surface tube = isoatlas::extract_by(SurfaceMethod::connected_contours, one, -3.4);
+    const Surface tube = extract_by(SurfaceMethod::connected_contours, one, -3.4);
     EXPECT_EQ(isoatlas::count_hole_edges(tube, one.info), 0);
     EXPECT_EQ(report_of(tube).non_manifold_edges, 0);
     EXPECT_EQ(report_of(tube).misoriented_edges, 0);
     EXPECT_EQ(report_of(tube).component_chi, std::vector<std::int64_t>{0});
     EXPECT_NEAR(enclosed(tube) / (8 * 3.14159265 * 3.4 * 3.4), 2.0 / 3, 0.05);  // without its ends, seen from a corner of its axis
     const isoatlas::Volume two = columns(true);
-    EXPECT_GT(report_of(isoatlas::extract_by(SurfaceMethod::connected_contours, two, -3.4)).non_manifold_edges, 0);
-    EXPECT_EQ(report_of(isoatlas::extract_by(SurfaceMethod::trilinear, two, -3.4)).non_manifold_edges, 0);
+    EXPECT_GT(report_of(extract_by(SurfaceMethod::connected_contours, two, -3.4)).non_manifold_edges, 0);
+    EXPECT_EQ(report_of(extract_by(SurfaceMethod::trilinear, two, -3.4)).non_manifold_edges, 0);
     const isoatlas::Volume closed = ball(24);
-    EXPECT_GT(isoatlas::count_hole_edges(isoatlas::extract_by(SurfaceMethod::connected_contours, closed, -9), closed.info), 0);
+    EXPECT_GT(isoatlas::count_hole_edges(extract_by(SurfaceMethod::connected_contours, closed, -9), closed.info), 0);
 }
 
 /// Half the diagonal of a small cube away from the surface at most, with normals outwards.
@@ -132,7 +156,7 @@ TEST(SurfaceMethods, DividingCubesLieNearTheSurface) {
     const isoatlas::Volume volume = ball(24);
     std::size_t before = 0;
     for (const int divisions : {1, 2, 4}) {
-        const isoatlas::PointCloud cloud = isoatlas::divide_cubes(volume, -9, divisions);
+        const isoatlas::PointCloud cloud = extraction_by(SurfaceMethod::dividing_cubes, volume, -9, divisions).points;
         const double most = std::sqrt(3) / 2 / divisions + 0.05;  // the interpolated ball is not quite the ball
         for (std::size_t i = 0; i < cloud.points.size(); ++i) {
             double square = 0, along = 0;
@@ -146,13 +170,13 @@ TEST(SurfaceMethods, DividingCubesLieNearTheSurface) {
         EXPECT_GT(cloud.points.size(), 3 * before);
         before = cloud.points.size();
     }
-    EXPECT_THROW((void)isoatlas::divide_cubes(volume, -9, 0), isoatlas::Error);
+    EXPECT_THROW((void)extraction_by(SurfaceMethod::dividing_cubes, volume, -9, 0), isoatlas::Error);
 }
 
 TEST(SurfaceMethods, RefuseWhatTheyCannot) {
     const isoatlas::Volume image = isoatlas::make_volume<double>({2, {2, 2, 1}}, std::vector<double>{0, 1, 0, 1});
-    EXPECT_THROW((void)isoatlas::extract_by(SurfaceMethod::marching_cubes, image, 0.5), isoatlas::Error);
-    EXPECT_THROW((void)isoatlas::extract_by(SurfaceMethod::marching_cubes, ball(3), std::nan("")), isoatlas::Error);
+    EXPECT_THROW((void)extract_by(SurfaceMethod::marching_cubes, image, 0.5), isoatlas::Error);
+    EXPECT_THROW((void)extract_by(SurfaceMethod::marching_cubes, ball(3), std::nan("")), isoatlas::Error);
 }
 
 }  // namespace
