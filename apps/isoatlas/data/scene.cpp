@@ -102,7 +102,9 @@ SceneObject points_of(const Arguments& arguments, Sides& sides, const Wanted& wa
                                        .next = "give isovalues alone: --tau T"});
     Source& source = sides.source(wanted.polarity);
     const int divisions = arguments.picture.points;
-    PointCloud cloud = divide_cubes(source.volume(), wanted.tau, divisions, source.context());
+    PointCloud cloud = make_extractor(SurfaceMethod::dividing_cubes, source.volume(), {.divisions = divisions})
+                           ->extract(wanted.tau, source.context())
+                           .points;
     SceneObject object;
     object.name = fmt::format("{}, {} points", wanted.name, count_text(std::ssize(cloud.points)));
     object.surface.points = std::move(cloud.points), object.surface.normals = std::move(cloud.normals);
