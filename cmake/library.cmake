@@ -2,7 +2,7 @@
 # rooms before it, of its own library and of those it needs, nothing else (tests/layering).
 include(cmake/isoatlasPackages.cmake)
 
-set(ISOATLAS_ALL_LIBRARIES core formats store measures render server phantom verify methods)
+set(ISOATLAS_ALL_LIBRARIES core formats store measures render methods server phantom verify)
 set(ISOATLAS_LIBRARIES ${ISOATLAS_ALL_LIBRARIES} CACHE STRING "Libraries to build, with all that they need")
 
 # isoatlas_library(name NEEDS libraries LINKS packages INCLUDES folders HEADERS names): begins a library, isoatlas::name, unless

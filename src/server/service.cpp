@@ -15,6 +15,7 @@
 #include "server/answers.h"
 #include "server/branch_answers.h"
 #include "server/download.h"
+#include "server/object_points.h"
 #include "server/sample_answers.h"
 #include "server/secret.h"
 #include "server/several_objects.h"
@@ -24,7 +25,8 @@ namespace isoatlas {
 namespace {
 
 constexpr std::int64_t kMaxListed = 100000, kMaxTriangles = 100'000'000, kMaxFrames = 16, kMaxBranches = std::int64_t{1} << 40;
-constexpr int kAtOnce = 2;                                      ///< responses at a time
+constexpr int kAtOnce = 2;  ///< responses at a time
+constexpr std::int64_t kMaxPointDivisions = 8;
 constexpr std::int64_t kFirstTriangles = 20'000;                ///< max of the first request of a page (web/src/viewer/api/surfaces.ts)
 constexpr std::int64_t kTriangleBytes = 128, kLabelBytes = 24;  ///< bytes while a response is made: per triangle, per voxel
 constexpr double kStepsOfVoxel = 64;                            ///< steps of positions per voxel
@@ -297,6 +299,7 @@ Response Service::surface_answer(const Request& request) {
     const std::optional<std::string> shell = words.choice("shell", {"outer", "inner"});
     if (shell) options.shell = *shell == "inner" ? ShellChoice::inner : ShellChoice::outer;
     const std::optional<std::string> format = words.choice("format", {"ply", "stl", "obj", "vtp", "glb"});
+    const std::optional<std::int64_t> divisions = format ? std::nullopt : words.whole("points", 1, kMaxPointDivisions);
     options.ids = format.has_value();
     const std::int64_t max = words.whole("max", 1, kMaxTriangles).value_or(kMaxTriangles);
     const std::string unit = unit_of_lengths(words, atlas.info().geometry);
@@ -312,8 +315,12 @@ Response Service::surface_answer(const Request& request) {
         (void)write_surface(download, surface);
         return file_answer(download.take());
     }
-    const auto make = [&](const Context& own) { return wire(extract(atlas, stored, options, own), max, own); };
-    WireMesh mesh = is_first(atlas, stored, options, max) ? first_.get(context, make) : make(context);
+    const auto make = [&](const Context& own) {
+        const Surface surface = extract(atlas, stored, options, own);
+        return divisions ? wire(points_as_squares(atlas, surface, {static_cast<int>(*divisions), max_triangles(), memory_}, own), 0, own)
+                         : wire(surface, max, own);
+    };
+    WireMesh mesh = !divisions && is_first(atlas, stored, options, max) ? first_.get(context, make) : make(context);
     Response answer = file_answer(std::move(mesh.bytes));
     answer.headers["X-Triangles"] = std::to_string(mesh.triangles);
     answer.headers["X-Coarse"] = mesh.coarse ? "1" : "0";

@@ -9,6 +9,7 @@
 //   /api/branches?top=N[&persistence=H...]  all objects by rank, or those of a selection (server/branch_answers.h)
 //   /api/card?entry=I|branch=R[&frames=N]   a picture of one (server/cards.h)
 //   /api/surface?tau=T[&object=ID,...|&contour=ID,...][&max=N]    a mesh (preview/wire_mesh.h)
+//   /api/surface?tau=T[...]&points=N                              the points of Dividing Cubes, as squares of two triangles
 //   /api/surface?tau=T[...]&format=stl                            the file that `isoatlas extract` writes
 //   /api/label?tau=T[&object=ID,...]&format=nrrd                  the file that `isoatlas label` writes
 //   /api/slice?axis=A&index=I[&max=N]       the samples of one slice (server/wire_samples.h)

@@ -76,7 +76,12 @@ class Pictures(CliTest):
         points = self.picture("shells.nrrd", "--tau", "0.5", "--plain", "--background", "transparent", "--points", "4")[2]
         covered = [sum(pixel[3] > 127 for row in rows for pixel in row) for rows in (surface, points)]
         self.assertLess(abs(covered[0] - covered[1]), 0.1 * covered[0])
-        self.run_error(2, "render", "shells.nrrd", "--object", "1", "--points", "2", "-o", "p.png")
+        def objects(*words):
+            return self.run_json("render", "shells.nrrd", *words, "--points", "2", *self.small, "-o", "p.png")["objects"]
+        both, one, walls = (objects(*words)[0]["points"] for words in (["--tau", "0.5"], ["--object", "1@0.5"], ["--cavities", "1@0.5"]))
+        self.assertLess(one, both)   # the other shell is left out
+        self.assertLess(walls, one)
+        self.assertGreater(walls, 0)
         self.run_error(2, "render", "shells.nrrd", "--tau", "0.5", "--points", "2", "--opacity", "0.5", "-o", "p.png")
 
     def test_document(self):

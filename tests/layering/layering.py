@@ -18,10 +18,10 @@ LIBRARIES = {
     "store": (["formats"], ["codec", "store", "bricks", "census", "atlas"]),
     "measures": (["store"], ["measures"]),
     "render": (["core"], ["image", "render"]),
-    "server": (["store", "measures", "render"], ["preview", "catalogue", "page", "server"]),
+    "methods": (["store"], ["methods/search", "methods/disk", "methods/surfaces"]),
+    "server": (["store", "measures", "render", "methods"], ["preview", "catalogue", "page", "server"]),
     "phantom": (["core"], ["phantom"]),
     "verify": (["store"], ["verify"]),
-    "methods": (["store"], ["methods/search", "methods/disk", "methods/surfaces"]),
 }
 LIBRARY_OF = {room: library for library, (_, rooms) in LIBRARIES.items() for room in rooms}
 FOLDERS = {room.split("/")[0] for room in LIBRARY_OF}
@@ -41,14 +41,14 @@ PUBLIC = {
     "measures": "measures thickness",
     "image": "image",
     "render": "render",
+    "methods/search": "cell_search method_info",
+    "methods/disk": "brick_search disk_search",
+    "methods/surfaces": "surface_methods surface_points",
     "catalogue": "page",
     "page": "label_page",
     "server": "client server",
     "phantom": "phantom",
     "verify": "verify",
-    "methods/search": "cell_search method_info",
-    "methods/disk": "disk_search",
-    "methods/surfaces": "surface_methods",
 }
 OWNER = {name: room for room, names in PUBLIC.items() for name in names.split()}
 MAX_LINES = 400

@@ -149,6 +149,27 @@ describe.skipIf(!canServe)("the scene", () => {
     await tab.close();
   });
 
+  it("draws surfaces as points, as many as the command line, and back", async () => {
+    const { id, best_tau } = listed[0] as Listed;
+    const { tab } = await served.open(scene(1));
+    await settled(tab);
+    const note = () => shownAs(tab, "object 1").locator(".state").textContent();
+    const before = await note();
+    await tab.keyboard.press("D");
+    await expect.poll(note).toMatch(/points$/);
+    expect(new URL(tab.url()).hash).toContain("points=1");
+    const drawn = JSON.parse(
+      served.isoatlas("render", served.store, "--object", `v${id}@${best_tau}`, "--points", "2", "-o", join(served.folder, "p.png"), "--json"),
+    ) as { objects: { points: number }[] };
+    expect(await note()).toContain(`${drawn.objects[0]?.points.toLocaleString("en-US")} points`);
+    await tab.reload();
+    await expect.poll(note).toMatch(/points$/);
+    await tab.keyboard.press("Control+z");
+    await tab.keyboard.press("D");
+    await expect.poll(note).toBe(before);
+    await tab.close();
+  });
+
   it("shows only the walls of cavities, as many triangles as the command line", async () => {
     const at = listed.findIndex(({ cavities }) => cavities > 0);
     const { id, best_tau } = listed[at] as Listed;

@@ -82,35 +82,21 @@ Surface surface_of(Sides& sides, const Wanted& wanted) {
     return extract_label(source.volume(), *wanted.label, {.interpolant = source.interpolant(), .surface = options}, source.context());
 }
 
-/// Half the diagonal of a cell, the largest one.
-double half_diagonal(const VolumeInfo& info) {
-    double sum = 0;
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-        const std::vector<double>& at = info.geometry.coordinates[axis];
-        double step = info.geometry.spacing[axis];
-        for (std::size_t i = 1; i < at.size(); ++i) step = i == 1 ? std::abs(at[1] - at[0]) : std::max(step, std::abs(at[i] - at[i - 1]));
-        sum += step * step;
-    }
-    return std::sqrt(sum) / 2;
-}
-
-/// What Dividing Cubes makes; discs of the radius of a small cube's outer sphere leave no gaps.
+/// What Dividing Cubes makes of a surface; discs that leave no gaps.
 SceneObject points_of(const Arguments& arguments, Sides& sides, const Wanted& wanted) {
-    if (!wanted.objects.empty() || !wanted.contours.empty() || wanted.label)
+    if (wanted.label)
         throw Error(ErrorKind::usage, {.where = "--points",
-                                       .what = "Dividing Cubes knows no objects: it makes points of everything at an isovalue",
-                                       .next = "give isovalues alone: --tau T"});
+                                       .what = "a label has no samples between which Dividing Cubes could interpolate",
+                                       .next = "omit --points"});
     Source& source = sides.source(wanted.polarity);
     const int divisions = arguments.picture.points;
-    PointCloud cloud = make_extractor(SurfaceMethod::dividing_cubes, source.volume(), {.divisions = divisions})
-                           ->extract(wanted.tau, source.context())
-                           .points;
     SceneObject object;
+    object.surface = surface_of(sides, wanted);
+    PointCloud cloud = points_of_surface(source.volume(), object.surface, divisions, source.context());
     object.name = fmt::format("{}, {} points", wanted.name, count_text(std::ssize(cloud.points)));
     object.surface.points = std::move(cloud.points), object.surface.normals = std::move(cloud.normals);
-    object.surface.tau = wanted.tau, object.surface.reported_tau = source.info().calibration.reported(wanted.tau);
-    object.surface.polarity = wanted.polarity, object.surface.unit = source.info().geometry.unit;
-    object.point_radius = half_diagonal(source.info()) / divisions;
+    object.surface.triangles = {};
+    object.point_radius = disc_radius(source.info(), divisions);
     return object;
 }
 

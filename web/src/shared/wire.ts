@@ -14,6 +14,8 @@ export interface Mesh {
   triangles: number;
   /** simplified: it has fewer triangles than the surface */
   coarse: boolean;
+  /** squares of points: not closed where it is cut */
+  isOpen: boolean;
   /** encoded size, before compression by HTTP */
   bytes: number;
 }
@@ -73,6 +75,7 @@ export async function decodeMesh(bytes: ArrayBuffer, coarse = false): Promise<Me
     corners,
     triangles,
     coarse,
+    isOpen: false,
     bytes: bytes.byteLength,
   };
 }

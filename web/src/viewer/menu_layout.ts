@@ -28,6 +28,7 @@ const ICONS = {
   redo: "M16 5l4 4l-4 4M20 9H10a5 5 0 0 0 0 10h4",
   eye: "M2 12c3-5 6-7 10-7s7 2 10 7c-3 5-6 7-10 7s-7-2-10-7zM12 9a3 3 0 1 0 0 6a3 3 0 1 0 0-6",
   one: "M12 8a4 4 0 1 0 0 8a4 4 0 1 0 0-8M3 8V3h5M16 3h5v5M21 16v5h-5M8 21H3v-5",
+  points: "M6 7h.1M12 5h.1M18 8h.1M8 13h.1M14 12h.1M19 15h.1M6 19h.1M12 18h.1",
   ghost: "M5 21V11a7 7 0 0 1 14 0v10l-3.5-3L12 21l-3.5-3zM9 11h.1M15 11h.1",
   cavity: "M12 3a9 9 0 1 0 0 18a9 9 0 1 0 0-18M12 9a3 3 0 1 0 0 6a3 3 0 1 0 0-6",
   remove: "M5 7h14M9 7V4h6v3M7 7l1 13h8l1-13",
@@ -70,6 +71,7 @@ export const MENU: Record<Group, Section[]> = {
     { title: "Selection", items: [["Select next", "next"], ["Select previous", "previous"]] },
     { title: "Selected object", items: [["Show or hide", "eye"], ["Isolate", "one"], ["Cavities", "cavity"], ["Remove", "remove"]] },
     { title: "Other objects", items: [["Ghost", "ghost"]] },
+    { title: "Drawn", items: [["Surfaces as points", "points"]] },
   ],
   View: [
     { title: "Camera", items: [["Fit", "fit"], ["Orthographic", "box"], ["Rotate", "turn"]] },

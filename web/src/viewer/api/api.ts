@@ -150,10 +150,20 @@ export class Api {
   }
 
   /** maxTriangles: the mesh is simplified to fewer triangles if it has more. */
-  async surface(channel: string, tau: number, target: SurfaceTarget, maxTriangles: number, walls: ShellFilter = "all"): Promise<Mesh> {
+  surface(channel: string, tau: number, target: SurfaceTarget, maxTriangles: number, walls: ShellFilter = "all"): Promise<Mesh> {
+    return this.mesh(channel, `tau=${tau}${parameters(target)}${shell(walls)}&max=${maxTriangles}`);
+  }
+
+  /** The points of Dividing Cubes, `divisions` along each axis of a cell, as squares of two triangles. */
+  async points(channel: string, tau: number, target: SurfaceTarget, divisions: number, walls: ShellFilter): Promise<Mesh> {
+    const squares = await this.mesh(channel, `tau=${tau}${parameters(target)}${shell(walls)}&points=${divisions}`);
+    return { ...squares, isOpen: true };
+  }
+
+  private async mesh(channel: string, query: string): Promise<Mesh> {
     ++this.surfaces;
     try {
-      const response = await this.request(`/api/surface?tau=${tau}${parameters(target)}${shell(walls)}&max=${maxTriangles}`, channel);
+      const response = await this.request(`/api/surface?${query}`, channel);
       return await decodeMesh(await response.arrayBuffer(), response.headers.get("X-Coarse") === "1");
     } finally {
       --this.surfaces;

@@ -1,6 +1,7 @@
 // Loads surfaces of objects, one channel an object: coarse ones during a drag, full ones when it ends.
 import { ConnectionError, failureText, isSuperseded, type Api, type SurfaceTarget } from "./api";
 import { countComponents } from "./count_components";
+import { DIVISIONS } from "../state/points";
 import type { ShellFilter } from "../state/state";
 import type { Mesh } from "../../shared/wire";
 
@@ -19,6 +20,8 @@ export interface LoadState {
   /** keyOf() its request; empty: nothing is loaded yet */
   key: string;
   triangles: number;
+  /** drawn instead of triangles; 0: none */
+  points: number;
   bytes: number;
   coarse: boolean;
   /** of walls of cavities: their number; null: not counted */
@@ -27,7 +30,7 @@ export interface LoadState {
   error: string;
 }
 
-const NONE: LoadState = { key: "", triangles: 0, bytes: 0, coarse: false, walls: null, waiting: false, error: "" };
+const NONE: LoadState = { key: "", triangles: 0, points: 0, bytes: 0, coarse: false, walls: null, waiting: false, error: "" };
 
 class Channel {
   key = "";
@@ -47,6 +50,7 @@ export function keyOf({ tau, walls }: Pick<SurfaceRequest, "tau" | "walls">): st
 export class Surfaces {
   private readonly channels = new Map<number, Channel>();
   private readonly pending = new Set<Promise<void>>();
+  private asPoints = false;
 
   /** onMesh: null where there is no such surface. */
   constructor(
@@ -57,6 +61,16 @@ export class Surfaces {
 
   loadStateOf(entry: number): LoadState {
     return this.channels.get(entry)?.loadState ?? NONE;
+  }
+
+  /** From now on: full surfaces as points, or as triangles. Those that are loaded are requested again. */
+  drawAsPoints(asPoints: boolean): void {
+    if (asPoints === this.asPoints) return;
+    this.asPoints = asPoints;
+    for (const channel of this.channels.values()) {
+      channel.key = "";
+      channel.loadState = { ...channel.loadState, key: "" };
+    }
   }
 
   /** While dragging: one coarse surface at a time, then that of the last request. Else the request supersedes older ones. */
@@ -95,6 +109,11 @@ export class Surfaces {
     void work.finally(() => this.pending.delete(work));
   }
 
+  private meshOf(entry: number, { tau, target, walls }: SurfaceRequest, maxTriangles: number): Promise<Mesh> {
+    if (this.asPoints && maxTriangles === FULL) return this.api.points(channelName(entry), tau, target, DIVISIONS, walls);
+    return this.api.surface(channelName(entry), tau, target, maxTriangles, walls);
+  }
+
   /** levels: maximal numbers of triangles, loaded one after the other. */
   private async load(entry: number, channel: Channel, request: SurfaceRequest, levels: number[]): Promise<void> {
     const key = keyOf(request);
@@ -104,19 +123,22 @@ export class Surfaces {
         channel.requested = maxTriangles;
         channel.loadState = { ...channel.loadState, waiting: true };
         this.onUpdate(entry);
-        const mesh = await this.api.surface(channelName(entry), request.tau, request.target, maxTriangles, request.walls);
+        const mesh = await this.meshOf(entry, request, maxTriangles);
         if (isStale()) return;
+        const isLast = mesh.isOpen || !(mesh.coarse || this.asPoints); // coarse triangles first, then points
+
         channel.loadState = {
           key,
           triangles: mesh.triangles,
+          points: mesh.isOpen ? mesh.triangles / 2 : 0,
           bytes: mesh.bytes,
-          coarse: mesh.coarse,
-          walls: request.walls === "cavities" && !mesh.coarse ? countComponents(mesh.corners) : null,
+          coarse: !isLast,
+          walls: request.walls === "cavities" && isLast && !mesh.isOpen ? countComponents(mesh.corners) : null,
           waiting: false,
           error: "",
         };
         this.onMesh(entry, mesh, request.tau);
-        if (!mesh.coarse) break;
+        if (isLast) break;
       }
     } catch (error) {
       if (isStale() || isSuperseded(error)) return;

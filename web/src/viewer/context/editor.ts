@@ -3,6 +3,7 @@ import type { Page } from "../../shared/page";
 import type { History } from "../state/history";
 import { bestOf, branchOfShown, within } from "../api/entries";
 import { GHOSTS } from "../state/ghosts";
+import { POINTS } from "../state/points";
 import { closedAgain, seenThrough } from "../state/see_through";
 import { add, change, changeAll, isolate, remove, select, type Shown, type State } from "../state/state";
 
@@ -84,6 +85,13 @@ export class Editor {
   }
   toggleGhosts(): void {
     this.history.go(GHOSTS.with(this.now, !this.ghosts));
+  }
+
+  get points(): boolean {
+    return POINTS.of(this.now);
+  }
+  togglePoints(): void {
+    this.history.go(POINTS.with(this.now, !this.points));
   }
 
   private get now(): State {

@@ -1,6 +1,7 @@
 // Exports to files and to the clipboard.
 import { isCavity, referenceOf } from "../../shared/names";
 import { entryOf } from "../../shared/page";
+import { DIVISIONS, POINTS } from "../state/points";
 import { renderOptions } from "../state/render_options";
 import { downloadBlob, selectedOf, type ViewerContext } from "../context/viewer_context";
 import { drawPicture, pngOf, type PictureOptions } from "./picture";
@@ -102,7 +103,12 @@ export class Exporter {
     const camera = { view, up, flat, height, cut: viewport.clippedHalfSpace };
     const size: [number, number] = [viewport.canvas.clientWidth, viewport.canvas.clientHeight];
     const options = [...this.unitOption, ...renderOptions(page, history.now, proposal.layers)];
-    return renderCommand(page, scene.drawnOf(history.now), camera, size, isDarkPage(), options);
+    let drawn = scene.drawnOf(history.now);
+    if (POINTS.of(history.now)) {
+      options.push(`--points ${DIVISIONS}`);
+      drawn = drawn.map((shown) => ({ ...shown, opacity: 1 })); // points are drawn opaque there
+    }
+    return renderCommand(page, drawn, camera, size, isDarkPage(), options);
   }
 
   /** What the files have to be told: the chosen unit, where the volume has none. */

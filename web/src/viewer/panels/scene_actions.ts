@@ -38,6 +38,13 @@ export function addSceneActions({ actions, editor, history }: ViewerContext): vo
       run: () => editor.toggleCavitiesOnly(),
       isOn: () => editor.selected?.walls === "cavities",
     },
+    {
+      group: "Scene",
+      name: "Surfaces as points (Dividing Cubes)",
+      keys: ["D"],
+      run: () => editor.togglePoints(),
+      isOn: () => editor.points,
+    },
     { group: "Scene", name: "Remove selected object", keys: ["Delete"], run: () => editor.remove() },
   );
 }

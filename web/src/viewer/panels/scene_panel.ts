@@ -201,6 +201,7 @@ export function noteOf(shown: Shown, loadState: LoadState): string {
   else if (loadState.error) parts.push(loadState.error);
   else if (shown.walls === "cavities" && loadState.triangles === 0) parts.push("no cavities");
   else if (loadState.walls) parts.push(`${plural(loadState.walls, "cavity", "cavities")}, ${count(loadState.triangles)} triangles`);
+  else if (loadState.points > 0) parts.push(`${count(loadState.points)} points`);
   else if (loadState.triangles > 0) parts.push(`${count(loadState.triangles)} triangles${loadState.coarse ? ", coarse" : ""}`);
   return parts.join(", ");
 }

@@ -1,6 +1,7 @@
 // Synchronizes the viewport with the state: loads surfaces, shows and removes them.
 import type { Api } from "../api/api";
 import { GHOSTS } from "../state/ghosts";
+import { POINTS } from "../state/points";
 import { colourOfShown, targetOf } from "../api/entries";
 import type { Appearance, Viewport } from "./viewport";
 import type { Shown, State } from "../state/state";
@@ -47,6 +48,7 @@ export class Scene {
 
   /** dragging: only coarse surfaces. */
   show(state: State, before: State, dragging: boolean): void {
+    this.surfaces.drawAsPoints(POINTS.of(state));
     for (const { entry } of before.shown) if (!state.shown.some((shown) => shown.entry === entry)) this.remove(entry);
     state.shown.forEach((shown, i) => {
       this.context.viewport.applyAppearance(shown.entry, this.appearanceOf(state, i));

@@ -94,7 +94,7 @@ export class Viewport {
     body.position.set(...mesh.origin);
     body.scale.setScalar(mesh.step);
     body.updateMatrixWorld();
-    body.userData = { tau };
+    body.userData = { tau, isOpen: mesh.isOpen };
     this.bodies.set(key, body);
     this.meshes.set(key, mesh);
     this.scene.add(body);
@@ -241,7 +241,7 @@ export class Viewport {
     for (const body of [...this.bodies.values()].sort((a, b) => Number(a.userData.tau) - Number(b.userData.tau))) {
       body.material.clippingPlanes = this.plane ? [this.plane] : [];
       body.renderOrder = this.plane ? 100 : 0;
-      if (this.plane && body.visible) this.caps.push(cap(body, this.plane, order++));
+      if (this.plane && body.visible && body.userData.isOpen !== true) this.caps.push(cap(body, this.plane, order++));
     }
     for (const group of this.caps) this.scene.add(group);
     for (const listener of this.changeListeners) listener();
