@@ -62,6 +62,9 @@ public:
     [[nodiscard]] virtual std::int64_t bytes() const = 0;
     /// Of the file; 0: in memory.
     [[nodiscard]] virtual std::int64_t file_bytes() const { return 0; }
+    /// Asks the system to forget its pages of the file, so that the next query reads the disk ("cold"). It may refuse silently. In memory:
+    /// nothing.
+    virtual void drop_pages() {}
 };
 
 /// The samples are borrowed: the volume must live as long as the result. Throws Error: resource (2^32 cells or more), cancelled. Cost: that

@@ -9,6 +9,7 @@ File::~File() = default;
 std::ptrdiff_t File::read_at(std::int64_t, std::span<std::byte>) { return -EBADF; }
 std::ptrdiff_t File::read_nowait(std::int64_t offset, std::span<std::byte> out) { return read_at(offset, out); }
 void File::prefetch(std::int64_t, std::int64_t) {}
+void File::drop_pages() {}
 std::ptrdiff_t File::write_at(std::int64_t, std::span<const std::byte>) { return -EBADF; }
 int File::resize(std::int64_t) { return -EBADF; }
 int File::reserve(std::int64_t) { return -EBADF; }

@@ -31,6 +31,8 @@ public:
     [[nodiscard]] virtual std::ptrdiff_t read_nowait(std::int64_t offset, std::span<std::byte> out);
     /// Hint that bytes, at least one, will be read soon (WILLNEED).
     virtual void prefetch(std::int64_t offset, std::int64_t bytes);
+    /// Hint that no page of the file, which was synced, needs to stay in memory (DONTNEED).
+    virtual void drop_pages();
     /// Writes at most bytes.size() bytes at offset; the number written, or -errno. A hole before offset reads as zeros.
     [[nodiscard]] virtual std::ptrdiff_t write_at(std::int64_t offset, std::span<const std::byte> bytes);
     /// Cuts the file, or lengthens it by zeros. 0 or -errno, as all that follow.

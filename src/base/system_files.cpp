@@ -59,6 +59,7 @@ public:
     void prefetch(std::int64_t offset, std::int64_t bytes) override {
         (void)::posix_fadvise(descriptor_, offset, bytes, POSIX_FADV_WILLNEED);
     }
+    void drop_pages() override { (void)::posix_fadvise(descriptor_, 0, 0, POSIX_FADV_DONTNEED); }
     std::ptrdiff_t write_at(std::int64_t offset, std::span<const std::byte> bytes) override {
         const ::ssize_t done = ::pwrite(descriptor_, bytes.data(), bytes.size(), offset);
         return done < 0 ? -errno : done;

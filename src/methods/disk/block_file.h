@@ -50,6 +50,8 @@ public:
     [[nodiscard]] std::int64_t blocks() const { return blocks_; }
     /// The payload. Throws Error{input}: no such block, damaged.
     [[nodiscard]] std::vector<std::byte> read(std::int64_t number) const;
+    /// The next blocks are read from the disk, where the system follows that hint.
+    void drop_pages() const { file_->drop_pages(); }
     /// Throws Error{input}: contents contradict each other.
     [[noreturn]] void fail(const std::string& what) const;
 

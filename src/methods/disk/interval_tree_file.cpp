@@ -1,4 +1,7 @@
+#include "base/big_vector.h"
+#include "base/streamed.h"
 #include "field/volume_view.h"
+#include "formats/volume/load_samples.h"
 #include "isoatlas/disk_search.h"
 #include "isoatlas/environment.h"
 #include "isoatlas/error.h"
@@ -18,20 +21,54 @@ IntervalTreePlace place_of(const HeaderNumbers& numbers) {
     return {numbers[kLevels], numbers[kRoot], {numbers[kFirst], static_cast<std::uint32_t>(numbers[kCount])}};
 }
 
+/// All that are active at some isovalue, in the order of their numbers.
+template <class T>
+Array<CellInterval<T>> all_intervals(const CellGrid<T>& grid) {
+    Array<CellInterval<T>> cells(static_cast<std::size_t>(grid.count()));
+    std::size_t count = 0;
+    for (const auto i : streamed<std::int64_t>(cells.size(), in_order(4))) {
+        const std::array<T, 2> ends = grid.interval(grid.place(CellId(i)));
+        if (ends[0] < ends[1]) cells[count++] = {ends[0], ends[1], CellId(i)};
+    }
+    cells.resize(count);
+    return cells;
+}
+
+/// release(): the samples are no longer needed.
+template <class Release>
+void write_tree(const std::string& path, const VolumeView& volume, const Release& release, const IntervalTreeFileOptions& options,
+                const Context& context) {
+    visit_samples(volume, [&]<class T>(std::span<const T> samples) {
+        const CellGrid<T> grid(volume.info->extent, samples);
+        require_countable(grid.count(), volume.info->path);
+        BlockWriter file(path, kMagic, options.block_bytes);
+        Array<CellInterval<T>> cells = all_intervals(grid);
+        release();
+        const std::int64_t count = std::ssize(cells);
+        IntervalTreeWriter<CellInterval<T>> writer(file);
+        const IntervalTreePlace place = writer.write(std::move(cells), context);
+        file.commit({static_cast<std::int64_t>(volume.info->type), count, writer.slabs(), place.levels, place.root, place.list.first,
+                     place.list.count, 0});
+    });
+}
+
 }  // namespace
 
 void write_interval_tree(const std::string& path, const Volume& volume, const IntervalTreeFileOptions& options, const Context& context) {
     const EnvironmentScope scope(context);
-    visit_samples(VolumeView(volume), [&]<class T>(std::span<const T> samples) {
-        const CellGrid<T> grid(volume.info.extent, samples);
-        require_countable(grid.count(), volume.info.path);
-        const std::vector<CellInterval<T>> cells = cell_intervals(grid);
-        BlockWriter file(path, kMagic, options.block_bytes);
-        IntervalTreeWriter<CellInterval<T>> writer(file);
-        const IntervalTreePlace place = writer.write({cells.begin(), cells.end()}, context);
-        file.commit({static_cast<std::int64_t>(volume.info.type), std::ssize(cells), writer.slabs(), place.levels, place.root,
-                     place.list.first, place.list.count, 0});
-    });
+    write_tree(path, volume, [] {}, options, context);
+}
+
+void write_interval_tree(const std::string& path, VolumeReader& reader, const MissingPolicy& missing,
+                         const IntervalTreeFileOptions& options, const Context& context) {
+    const EnvironmentScope scope(context);
+    Array<std::byte> samples;
+    const Allocate allocate = [&](std::size_t bytes) {
+        samples.resize(bytes);
+        return std::span<std::byte>(samples);
+    };
+    const VolumeInfo info = load_samples(reader, missing, allocate, context);
+    write_tree(path, {info, samples.data()}, [&] { release(samples); }, options, context);
 }
 
 struct IntervalTreeFile::Data {
@@ -58,6 +95,7 @@ std::vector<CellId> IntervalTreeFile::active(double tau, CellSearchCost& cost) {
     return found;
 }
 
+void IntervalTreeFile::drop_pages() { data_->file.drop_pages(); }
 std::int64_t IntervalTreeFile::bytes() const { return 2 * block_bytes(); }
 std::int64_t IntervalTreeFile::file_bytes() const { return data_->file.blocks() * data_->file.block_bytes(); }
 std::int64_t IntervalTreeFile::block_bytes() const { return data_->file.block_bytes(); }

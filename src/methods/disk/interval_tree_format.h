@@ -5,6 +5,7 @@
 //   left[p]      of the slab of its low end, ascending by it: active in slab p as far as it begins below tau
 //   right[q]     of the slab of its high end, descending by it: active in slab q as far as it reaches tau
 //   multi[p, q]  of the first and last slab between both: active there, all of it
+//   corner[i]    the multi lists with less than half a block of entries that are active in slab i, and others (corner_structure.h)
 // A child with at most a block of entries is a list. Entries have numbers in the file: i is in block i / (entries of a block).
 #pragma once
 
@@ -62,7 +63,7 @@ struct TreeChild {
 struct TreeNode {
     std::vector<double> keys;  ///< ascending, at least one
     std::vector<TreeChild> children;
-    std::vector<EntryRange> left, right, multi;
+    std::vector<EntryRange> left, right, corner, multi;
     [[nodiscard]] int slabs() const { return static_cast<int>(keys.size()) + 1; }
 };
 
@@ -79,7 +80,7 @@ struct TreeNode {
 /// Bytes of a node with so many slabs.
 [[nodiscard]] constexpr std::int64_t node_bytes(std::int64_t slabs) {
     constexpr std::int64_t kRange = 12;
-    return 8 + 8 * (slabs - 1) + (8 + kRange) * slabs + kRange * (2 * slabs + (slabs - 1) * (slabs - 2) / 2);
+    return 8 + 8 * (slabs - 1) + (8 + kRange) * slabs + kRange * (3 * slabs + (slabs - 1) * (slabs - 2) / 2);
 }
 
 /// As many as the square root of the entries of a block, and as a node has room for.
@@ -97,7 +98,7 @@ inline void put_range(PayloadWriter& to, const EntryRange& range) { to.put(range
     payload.put(static_cast<std::int64_t>(node.keys.size()));
     for (const double key : node.keys) payload.put(key);
     for (const TreeChild& child : node.children) payload.put(child.node), put_range(payload, child.list);
-    for (const auto* lists : {&node.left, &node.right, &node.multi}) {
+    for (const auto* lists : {&node.left, &node.right, &node.corner, &node.multi}) {
         for (const EntryRange& list : *lists) put_range(payload, list);
     }
     return payload;
@@ -125,8 +126,9 @@ inline void check_range(const EntryRange& list, const BlockReader& file, std::in
         const auto number = payload.get<std::int64_t>();
         node.children.push_back({number, range()});
     }
-    for (std::int64_t i = 0; i <= keys; ++i) node.left.push_back(range());
-    for (std::int64_t i = 0; i <= keys; ++i) node.right.push_back(range());
+    for (auto* lists : {&node.left, &node.right, &node.corner}) {
+        for (std::int64_t i = 0; i <= keys; ++i) lists->push_back(range());
+    }
     for (std::int64_t i = 0; i < keys * (keys - 1) / 2; ++i) node.multi.push_back(range());
     return node;
 }

@@ -77,6 +77,11 @@ private:
             for (int q = std::max(p, slab); q <= slabs - 2; ++q)
                 scan(node.multi[place_of_multi(p, q, slabs)], visit, [](const Entry&) { return Take{true, true}; });
         }
+        // Those that begin or end in the slab are in the other lists.
+        scan(node.corner[at], visit, [&](const Entry& e) {
+            const double low = static_cast<double>(e.low), high = static_cast<double>(e.high);
+            return Take{slab_of(node.keys, low) < slab && slab < slab_of(node.keys, high), true};
+        });
     }
 
     struct Take {

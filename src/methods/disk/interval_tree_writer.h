@@ -1,58 +1,45 @@
-// Writes an I/O-optimal interval tree (interval_tree_format.h), level by level: each is a pass over the entries that are left.
+// Writes an I/O-optimal interval tree (interval_tree_format.h), level by level: a pass deals the entries that are left to the nodes of the
+// next level, in their order. In memory or, where it is limited, in the scratch file: everything runs in order.
 #pragma once
 
 #include <algorithm>
+#include <span>
 #include <utility>
 #include <vector>
 
 #include "base/big_vector.h"
 #include "base/cancel.h"
-#include "methods/disk/interval_tree_format.h"
+#include "methods/disk/entry_stream.h"
+#include "methods/disk/node_lists.h"
 
 namespace isoatlas {
 
-/// Orders of entries along one axis of the span space, ties by number.
-template <class Entry>
-struct LowFirst {
-    bool operator()(const Entry& p, const Entry& q) const {
-        return p.low != q.low ? p.low < q.low : EntryForm<Entry>::number(p) < EntryForm<Entry>::number(q);
-    }
-};
-template <class Entry>
-struct HighFirst {
-    bool operator()(const Entry& p, const Entry& q) const {
-        return p.high != q.high ? p.high > q.high : EntryForm<Entry>::number(p) < EntryForm<Entry>::number(q);
-    }
-};
-
-/// One entry after the other, from the next block of the file on.
-template <class Entry>
-class EntryStream {
+/// Payloads of nodes in their order. Not in memory where that is limited.
+class NodeSpool {
 public:
-    explicit EntryStream(BlockWriter& file)
-        : file_(file), in_block_(entries_of_block<Entry>(file.payload_bytes())), next_(file.blocks() * in_block_) {}
-
-    /// Number of the next entry.
-    [[nodiscard]] std::int64_t next() const { return next_; }
-    void put(const Entry& entry) {
-        EntryForm<Entry>::put(block_, entry);
-        if (++next_ % in_block_ == 0) flush();
+    void add(const std::vector<std::byte>& payload) {
+        constexpr std::size_t kChunk = std::size_t{1} << 22;
+        if (chunks_.empty() || chunks_.back().size() + payload.size() > kChunk) {
+            chunks_.emplace_back().reserve(kChunk);
+            sizes_.emplace_back();
+        }
+        chunks_.back().insert(chunks_.back().end(), payload.begin(), payload.end());
+        sizes_.back().push_back(payload.size());
+        memory_.step(payload.size());
     }
-    [[nodiscard]] EntryRange put_all(std::span<const Entry> entries) {
-        const EntryRange range{next_, static_cast<std::uint32_t>(entries.size())};
-        for (const Entry& entry : entries) put(entry);
-        return range;
-    }
-    /// After the last entry.
-    void flush() {
-        if (!block_.bytes().empty()) (void)file_.add(block_.bytes());
-        block_.clear();
+    void write_to(BlockWriter& file) const {
+        for (std::size_t chunk = 0; chunk < chunks_.size(); ++chunk) {
+            std::size_t at = 0;
+            for (const std::size_t size : sizes_[chunk])
+                (void)file.add(std::span(chunks_[chunk]).subspan(std::exchange(at, at + size), size));
+            (void)check_memory();
+        }
     }
 
 private:
-    BlockWriter& file_;
-    std::int64_t in_block_, next_;
-    PayloadWriter block_;
+    std::vector<Array<std::byte>> chunks_;
+    std::vector<std::vector<std::size_t>> sizes_;
+    BudgetPoll memory_;
 };
 
 template <class Entry>
@@ -60,99 +47,153 @@ class IntervalTreeWriter {
 public:
     explicit IntervalTreeWriter(BlockWriter& file)
         : file_(file),
-          in_block_(static_cast<std::size_t>(entries_of_block<Entry>(file.payload_bytes()))),
+          in_block_(entries_of_block<Entry>(file.payload_bytes())),
           slabs_(slabs_of<Entry>(file.payload_bytes())),
           stream_(file) {}
 
     /// Children of a node.
     [[nodiscard]] int slabs() const { return slabs_; }
 
-    /// Writes the tree of these entries, low < high each, at the end of the file. Called once. Throws Error: resource, cancelled.
+    /// Writes the tree of these entries, low < high each, at the end of the file. Called once. Throws Error: resource, cancelled. Cost: two
+    /// sorts of the entries, two passes over those that are left on each level; memory: a second copy of them.
     [[nodiscard]] IntervalTreePlace write(Array<Entry> entries, const Context& context) {
-        if (entries.size() <= in_block_) {
-            const IntervalTreePlace place{.list = stream_.put_all(entries)};
+        IntervalTreePlace place;
+        if (std::ssize(entries) <= in_block_) {
+            place.list = stream_.put(entries);
             stream_.flush();
             return place;
         }
-        std::ranges::sort(entries, LowFirst<Entry>());
         Array<Entry> rest(entries.size());
-        IntervalTreePlace place;
+        put_in_order<LowFirst<Entry>>(std::span(entries), [&](std::size_t first, std::span<const Entry> some) {
+            stop_if_cancelled(context);
+            write_part(std::span(rest).subspan(first, some.size()), some);
+        });
+        std::swap(entries, rest);
         for (std::vector<Part> level{{0, entries.size()}}; !level.empty(); ++place.levels) {
             std::vector<Part> next;
             for (const Part& part : level) {
                 stop_if_cancelled(context);
-                divide(std::span(entries).subspan(part.first, part.count), std::span(rest).subspan(part.first, part.count), part.first,
-                       next);
+                divide(part, std::span(entries).subspan(part.first, part.count), std::span(rest).subspan(part.first, part.count), next);
             }
             level = std::move(next);
             std::swap(entries, rest);
         }
         stream_.flush();
         place.root = file_.blocks();
-        for (const PayloadWriter& node : nodes_) (void)file_.add(node.bytes());
+        nodes_.write_to(file_);
         return place;
     }
 
 private:
-    /// The entries of a node and of all below it: so many from there on.
+    /// The entries of a node and of all below it, in order of their low ends: so many from there on.
     struct Part {
         std::size_t first, count;
     };
 
-    /// Makes the node of some entries, in order of their low ends: lists those that stay with it, and moves the others to rest, child by
-    /// child, in the same order. offset: of the entries in their array.
-    void divide(std::span<const Entry> entries, std::span<Entry> rest, std::size_t offset, std::vector<Part>& next) {
+    /// Makes the node of some entries: writes the lists of those that stay with it, and moves the others to rest, child by child. Both
+    /// places are used up.
+    void divide(const Part& part, std::span<Entry> entries, std::span<Entry> rest, std::vector<Part>& next) {
         TreeNode node;
         node.keys = keys_of(entries);
-        const auto slabs = static_cast<std::size_t>(node.slabs());
-        std::vector<std::vector<Entry>> inside(slabs), left(slabs), right(slabs), multi((slabs - 1) * (slabs - 2) / 2);
-        for (const Entry& entry : entries) {
-            const int p = slab_of(node.keys, static_cast<double>(entry.low)), q = slab_of(node.keys, static_cast<double>(entry.high));
-            if (p == q) {
-                inside[static_cast<std::size_t>(p)].push_back(entry);
-                continue;
-            }
-            left[static_cast<std::size_t>(p)].push_back(entry);
-            right[static_cast<std::size_t>(q)].push_back(entry);
-            if (q - p > 1) multi[place_of_multi(p + 1, q - 1, node.slabs())].push_back(entry);
-        }
-        for (const auto& list : left) node.left.push_back(stream_.put_all(list));
-        for (auto& list : right) std::ranges::sort(list, HighFirst<Entry>()), node.right.push_back(stream_.put_all(list));
-        for (const auto& list : multi) node.multi.push_back(stream_.put_all(list));
-        std::size_t place = 0;
-        for (const auto& list : inside) {
-            TreeChild child;
-            if (list.size() <= in_block_) {
-                child.list = stream_.put_all(list);
+        NodeLists lists(node.slabs(), in_block_);
+        for_each_entry<Entry>(entries, [&](const Entry& entry) { lists.count(slabs_of_ends(node.keys, entry)); });
+        std::vector<std::int64_t> sizes = lists.inside;
+        sizes.push_back(lists.own);
+        DealtLists<Entry> dealt(rest, sizes);
+        for_each_entry<Entry>(entries, [&](const Entry& entry) {
+            const SlabPair slabs = slabs_of_ends(node.keys, entry);
+            dealt.put(slabs.is_inside() ? static_cast<std::size_t>(slabs.p) : lists.inside.size(), entry);
+        });
+        dealt.finish();
+        put_lists(node, lists, rest.last(static_cast<std::size_t>(lists.own)), entries);
+        std::size_t first = 0;
+        for (const std::int64_t inside : lists.inside) {
+            const auto count = static_cast<std::size_t>(inside);
+            if (inside <= in_block_) {
+                node.children.push_back({TreeChild::kNothing, stream_.put(rest.subspan(first, count))});
             } else {
-                child.node = ++last_node_;
-                std::ranges::copy(list, rest.begin() + static_cast<std::ptrdiff_t>(place));
-                next.push_back({offset + place, list.size()});
-                place += list.size();
+                node.children.push_back({++last_node_, {}});
+                next.push_back({part.first + first, count});
             }
-            node.children.push_back(child);
+            first += count;
         }
-        nodes_.push_back(payload_of(node));
+        nodes_.add(payload_of(node).bytes());
     }
 
-    /// Low ends, as many entries between one and the next. A slab has its key as its end, and an entry in it begins below: so a child has
-    /// at most one entry of as many as there are slabs.
+    /// own: of the node, by their low ends. spare: room for as many.
+    void put_lists(TreeNode& node, const NodeLists& lists, std::span<Entry> own, std::span<Entry> spare) {
+        node.left = stream_.ranges(lists.left);
+        (void)stream_.put(own);
+        put_long_lists(node, lists, own, spare);
+        put_corner(node, lists, own);
+        node.right = stream_.ranges(std::vector(lists.right.rbegin(), lists.right.rend()));
+        std::ranges::reverse(node.right);
+        put_in_order<HighFirst<Entry>>(own, [this](std::size_t, std::span<const Entry> some) { (void)stream_.put(some); });
+    }
+
+    void put_long_lists(TreeNode& node, const NodeLists& lists, std::span<const Entry> own, std::span<Entry> spare) {
+        std::vector<std::int64_t> sizes(lists.multi.size(), 0);
+        for (std::size_t list = 0; list < sizes.size(); ++list) sizes[list] = lists.is_short(list) ? 0 : lists.multi[list];
+        node.multi = stream_.ranges(sizes);
+        const auto all = static_cast<std::size_t>(std::reduce(sizes.begin(), sizes.end()));
+        if (all == 0) return;
+        DealtLists<Entry> dealt(spare, sizes);
+        for_each_entry(own, [&](const Entry& entry) {
+            const SlabPair slabs = slabs_of_ends(node.keys, entry);
+            if (slabs.spans_slabs() && !lists.is_short(lists.multi_of(slabs))) dealt.put(lists.multi_of(slabs), entry);
+        });
+        dealt.finish();
+        (void)stream_.put(spare.first(all));
+    }
+
+    void put_corner(TreeNode& node, const NodeLists& lists, std::span<const Entry> own) {
+        const std::vector<CornerWindow> windows = lists.windows();
+        std::vector<std::int64_t> sizes;
+        std::vector<std::size_t> window_of(static_cast<std::size_t>(node.slabs()), 0);
+        for (const CornerWindow& window : windows) {
+            for (int slab = window.first; slab <= window.last; ++slab) window_of[static_cast<std::size_t>(slab)] = sizes.size();
+            sizes.push_back(window.entries);
+        }
+        const std::vector<EntryRange> ranges = stream_.ranges(sizes);
+        node.corner.assign(static_cast<std::size_t>(node.slabs()), {});
+        for (int slab = 1; slab + 1 < node.slabs(); ++slab)
+            node.corner[static_cast<std::size_t>(slab)] = ranges[window_of[static_cast<std::size_t>(slab)]];
+        Array<Entry> corner(static_cast<std::size_t>(std::reduce(sizes.begin(), sizes.end())));
+        if (corner.empty()) return;
+        DealtLists<Entry> dealt(corner, sizes);
+        for_each_entry(own, [&](const Entry& entry) {
+            const SlabPair slabs = slabs_of_ends(node.keys, entry);
+            if (!slabs.spans_slabs() || !lists.is_short(lists.multi_of(slabs))) return;
+            const std::size_t last = window_of[static_cast<std::size_t>(slabs.q - 1)];
+            for (std::size_t window = window_of[static_cast<std::size_t>(slabs.p + 1)]; window <= last; ++window) dealt.put(window, entry);
+        });
+        dealt.finish();
+        (void)stream_.put(corner);
+    }
+
+    static SlabPair slabs_of_ends(const std::vector<double>& keys, const Entry& entry) {
+        return {slab_of(keys, static_cast<double>(entry.low)), slab_of(keys, static_cast<double>(entry.high))};
+    }
+
+    /// Low ends, as many entries between one and the next. A slab has its key as its end, and an entry in it begins below: so of n entries
+    /// in s slabs a child has at most n / s, however many are equal.
     [[nodiscard]] std::vector<double> keys_of(std::span<const Entry> entries) const {
         std::vector<double> keys;
+        std::vector<Entry> buffer;
         for (int i = 1; i < slabs_; ++i) {
-            const auto key =
-                static_cast<double>(entries[entries.size() * static_cast<std::size_t>(i) / static_cast<std::size_t>(slabs_)].low);
+            const std::size_t at = entries.size() * static_cast<std::size_t>(i) / static_cast<std::size_t>(slabs_);
+            const auto key = static_cast<double>(part_in_memory(entries.subspan(at, 1), buffer).front().low);
             if (keys.empty() || key > keys.back()) keys.push_back(key);
         }
         return keys;
     }
 
     BlockWriter& file_;
-    std::size_t in_block_;
+    std::int64_t in_block_;
     int slabs_;
     EntryStream<Entry> stream_;
     std::int64_t last_node_ = 0;  ///< that has a number; the root is 0, and numbers are those of the order in which nodes are made
-    std::vector<PayloadWriter> nodes_;
+    NodeSpool nodes_;
 };
 
 }  // namespace isoatlas
