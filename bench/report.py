@@ -2,8 +2,8 @@
 """Renders the tables of docs/performance.md from what the benchmarks wrote.
 
     report.py --self-test
-    report.py FOLDER [PAGE]   FOLDER holds what was measured: engine.json, extract.json, store.json, render.json, pages.json and
-                              scale-SECTION.json, those that are there; PAGE: docs/performance.md
+    report.py FOLDER [PAGE]   FOLDER holds what was measured: engine.json, extract.json, store.json, render.json, pages.json,
+                              methods.json and scale-SECTION.json, those that are there; PAGE: docs/performance.md
 
 A table replaces the one of the same vectors (AVX2, AVX-512); that of the other kind of processor stays. What misses its goal is in bold.
 """
@@ -143,6 +143,40 @@ def generic_table(records, misses=lambda record, column: False):
     return table([name.replace("_", " ") for name in header], rows)
 
 
+def beyond(record):
+    """At the worst isovalue: cells and nodes looked at beyond the active cells; of a file, blocks beyond those that they fill."""
+    block = record["cells_of_block"]
+    if block:
+        return max(q["blocks"] - math.ceil(q["k"] / block) for q in record["queries"])
+    return max(q["cells"] + q["nodes"] - q["k"] for q in record["queries"])
+
+
+def of_active(record):
+    """The exponent of k in all that is looked at, over the isovalues."""
+    queries = [q for q in record["queries"] if q["k"] > 0]
+    return slope([q["k"] for q in queries], [q["blocks"] if record["cells_of_block"] else q["cells"] + q["nodes"] for q in queries])
+
+
+def methods_table(document):
+    """A row for each search: exponents of n in what it looks at beyond the active cells, and of k in all that it looks at."""
+    records = document["records"]
+    fields = list(dict.fromkeys(r["volume"].rsplit("-", 1)[0] for r in records))
+    header = ["search", "a query, as its source says"]
+    for field in fields:
+        largest = [r["volume"] for r in records if r["volume"].startswith(field + "-")][-1]
+        header += [f"{largest}: beyond", f"{field}: exponent of n", f"{largest}: exponent of k"]
+    rows = []
+    for name in dict.fromkeys(r["search"] for r in records):
+        rows.append([name, next(r["theorem"] for r in records if r["search"] == name)])
+        for field in fields:
+            own = [r for r in records if r["search"] == name and r["volume"].startswith(field + "-")]
+            counts = [(r["n"], beyond(r)) for r in own if beyond(r) > 0]
+            power, of_k = slope(*zip(*counts)) if counts else None, of_active(own[-1])
+            unit = " blocks" if own[-1]["cells_of_block"] else ""
+            rows[-1] += [thousands(beyond(own[-1])) + unit, *("" if e is None else f"{e:.2f}".replace("-0.00", "0.00") for e in (power, of_k))]
+    return table(header, rows)
+
+
 ORDER = ["no AVX2", "AVX2", "AVX-512"]
 
 
@@ -173,6 +207,7 @@ TABLES = [
     ("store-objects", "store", lambda document: generic_table(document["objects"])),
     ("render", "render", lambda document: generic_table(document["pictures"], render_misses)),
     ("pages", "pages", lambda document: generic_table(document["pages"], page_misses)),
+    ("methods", "methods", methods_table),
 ] + [(f"scale-{section}", f"scale-{section}", scale_table) for section in ("analysis", "extract", "stores", "render", "pages")]
 
 
@@ -187,6 +222,9 @@ def self_test():
     assert abs(slope([8, 64, 512], [2, 4, 8]) - 1 / 3) < 1e-9 and slope([8], [2]) is None
     records = [{"field": "smooth", "size": n, "voxels": n**3, "seconds": {"": {"1": n**3, "2": n**4}}, "bytes": {}, "more": {}} for n in (2, 4)]
     assert scale_table({"records": records}).endswith("| smooth: slope | 1.00 | **1.33** |  |")
+    queries = lambda n: [{"k": k, "cells": k + n, "nodes": 0, "blocks": 0} for k in (1, n * n)]
+    records = [{"volume": f"smooth-{n}", "n": n**3, "search": "s", "theorem": "n", "cells_of_block": 0, "queries": queries(n)} for n in (2, 4)]
+    assert methods_table({"records": records}).endswith("| s | n | 4 | 0.33 | 0.50 |"), methods_table({"records": records})
 
 
 def main():

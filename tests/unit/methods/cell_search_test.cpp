@@ -79,7 +79,7 @@ RC_GTEST_PROP(CellSearches, FindTheActiveCells, ()) {
 TEST(CellSearches, HavePlateausAndVolumesOfOneCellOrNone) {
     std::vector<int> raw(4000);
     for (std::size_t i = 0; i < raw.size(); ++i) raw[i] = static_cast<int>(i * i * 7919 % 10000);
-    const std::vector<std::array<Index, 3>> sizes{{1, 1, 1},  {40, 1, 1}, {1, 40, 1},  {1, 1, 40},  {2, 2, 2},   {2, 40, 1},
+    const std::vector<std::array<Index, 3>> sizes{{1, 1, 1},  {40, 1, 1}, {1, 40, 1},  {1, 1, 40},  {2, 2, 2}, {2, 40, 1},
                                                   {40, 2, 2}, {2, 2, 40}, {1, 20, 20}, {20, 20, 1}, {9, 8, 7}};
     for (const std::array<Index, 3>& size : sizes) {
         for (const int rank : {2, 3}) {
