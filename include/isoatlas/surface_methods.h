@@ -19,6 +19,7 @@ enum class SurfaceMethod : std::uint8_t {
     connected_contours,
     marching_cubes,
     asymptotic_decider,
+    marching_cubes_33,
     dividing_cubes,  ///< makes points
     five_tetrahedra,
     six_tetrahedra,

@@ -44,6 +44,16 @@ public:
         }
         return at->second;
     }
+    /// A new point, in the middle of others.
+    std::int64_t middle_of(std::span<const std::int64_t> points) {
+        Vec3 sum{};
+        for (const std::int64_t point : points) {
+            for (std::size_t axis = 0; axis < 3; ++axis) sum[axis] += position(point)[axis] / static_cast<double>(points.size());
+        }
+        surface_.points.push_back(sum);
+        return std::ssize(surface_.points) - 1;
+    }
+    [[nodiscard]] const Vec3& position(std::int64_t point) const { return surface_.points[static_cast<std::size_t>(point)]; }
     void add_triangle(std::int64_t p, std::int64_t q, std::int64_t r) { surface_.triangles.push_back({p, q, r}); }
     [[nodiscard]] double value(std::int64_t sample) const { return static_cast<double>(samples_[static_cast<std::size_t>(sample)]); }
     [[nodiscard]] double value(const Index3& sample) const { return value(info_.extent.index(sample)); }

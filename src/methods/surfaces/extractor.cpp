@@ -7,18 +7,21 @@
 #include "methods/surfaces/contour_stack.h"
 #include "methods/surfaces/dividing_cubes.h"
 #include "methods/surfaces/loops.h"
+#include "methods/surfaces/marching_cubes_33.h"
 #include "methods/surfaces/spider_web.h"
 #include "methods/surfaces/tetrahedra.h"
 
 namespace isoatlas {
 namespace {
 
-constexpr std::array<SurfaceMethodInfo, 8> kMethods{{
+constexpr std::array<SurfaceMethodInfo, 9> kMethods{{
     {SurfaceMethod::connected_contours, "connected-contours", "Connected contours of slices", "3.1",
      "Fuchs, Kedem, Uselton, Optimal surface reconstruction from planar contours, 1977", "n + p q log p, polygons of p and q corners"},
     {SurfaceMethod::marching_cubes, "marching-cubes", "Marching Cubes of 1987", "3.2", "Lorensen, Cline, Marching Cubes, 1987", "n"},
     {SurfaceMethod::asymptotic_decider, "asymptotic-decider", "Asymptotic decider", "3.2", "Nielson, Hamann, The asymptotic decider, 1991",
      "n"},
+    {SurfaceMethod::marching_cubes_33, "marching-cubes-33", "Marching Cubes 33", "",
+     "Chernyaev, Marching Cubes 33: construction of topologically correct isosurfaces, 1995", "n"},
     {SurfaceMethod::dividing_cubes, "dividing-cubes", "Dividing Cubes", "3.3",
      "Cline, Lorensen, Ludke, Crawford, Teeter, Two algorithms for the three-dimensional reconstruction of tomograms, 1988",
      "n + k d^3, d divisions"},
@@ -61,6 +64,7 @@ private:
 /// Each adds the triangles of one cell.
 constexpr auto kMarchingCubes = [](const Index3& cell, auto& points) { add_loops(cell, FaceRule::fewer_are_separate, points); };
 constexpr auto kAsymptoticDecider = [](const Index3& cell, auto& points) { add_loops(cell, FaceRule::asymptotic_decider, points); };
+constexpr auto kMarchingCubes33 = [](const Index3& cell, auto& points) { add_cell_of_33(cell, points); };
 constexpr auto kFiveTetrahedra = [](const Index3& cell, auto& points) { add_tetrahedra(cell, true, points); };
 constexpr auto kSixTetrahedra = [](const Index3& cell, auto& points) { add_tetrahedra(cell, false, points); };
 
@@ -74,6 +78,7 @@ std::unique_ptr<Extractor> extractor_of(SurfaceMethod method, const Volume& volu
         case SurfaceMethod::connected_contours: return std::make_unique<ConnectedContours>(volume);
         case SurfaceMethod::marching_cubes: return cell_by_cell(volume, kMarchingCubes);
         case SurfaceMethod::asymptotic_decider: return cell_by_cell(volume, kAsymptoticDecider);
+        case SurfaceMethod::marching_cubes_33: return cell_by_cell(volume, kMarchingCubes33);
         case SurfaceMethod::dividing_cubes: return std::make_unique<DividingCubes>(volume, options.divisions);
         case SurfaceMethod::five_tetrahedra: return cell_by_cell(volume, kFiveTetrahedra);
         case SurfaceMethod::six_tetrahedra: return cell_by_cell(volume, kSixTetrahedra);
