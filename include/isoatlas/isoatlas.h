@@ -74,3 +74,4 @@
 #include "isoatlas/verify.h"
 #include "isoatlas/version.h"
 #include "isoatlas/volume.h"
+#include "isoatlas/zone_files.h"

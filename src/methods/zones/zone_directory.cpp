@@ -1,0 +1,77 @@
+#include "methods/zones/zone_directory.h"
+
+#include "methods/zones/block_stream.h"
+
+namespace isoatlas {
+namespace {
+
+/// All that a surface needs beside samples.
+void put_info(PayloadWriter& payload, const VolumeInfo& info) {
+    payload.put(static_cast<std::int64_t>(info.type)), payload.put(std::int64_t{info.extent.rank});
+    for (int axis = 0; axis < 3; ++axis) payload.put(info.extent.size[axis]);
+    const Geometry& geometry = info.geometry;
+    payload.put(geometry.spacing), payload.put(geometry.origin), payload.put(geometry.direction);
+    for (const auto& axis : geometry.coordinates) put_array(payload, axis);
+    put_array(payload, geometry.space), put_array(payload, geometry.unit);
+    const Calibration& calibration = info.calibration;
+    payload.put(calibration.slope), payload.put(calibration.intercept);
+    payload.put(std::int64_t{calibration.mirror.has_value()}), payload.put(calibration.mirror.value_or(0));
+}
+
+VolumeInfo get_info(PayloadReader& payload, const BlockReader& file) {
+    VolumeInfo info;
+    const auto type = payload.get<std::int64_t>(), rank = payload.get<std::int64_t>();
+    if (type < 0 || type > static_cast<std::int64_t>(ValueType::f64)) file.fail("the type of the samples is unknown");
+    if (rank != 2 && rank != 3) file.fail("the volume has no rank");
+    info.type = static_cast<ValueType>(type), info.extent.rank = static_cast<int>(rank);
+    for (int axis = 0; axis < 3; ++axis) info.extent.size[axis] = payload.get<std::int64_t>();
+    Geometry& geometry = info.geometry;
+    geometry.spacing = payload.get<Vec3>(), geometry.origin = payload.get<Vec3>(), geometry.direction = payload.get<Mat3>();
+    for (auto& axis : geometry.coordinates) get_array(payload, file, axis);
+    get_array(payload, file, geometry.space), get_array(payload, file, geometry.unit);
+    Calibration& calibration = info.calibration;
+    calibration.slope = payload.get<double>(), calibration.intercept = payload.get<double>();
+    const bool is_mirrored = payload.get<std::int64_t>() != 0;
+    const auto mirror = payload.get<double>();
+    if (is_mirrored) calibration.mirror = mirror;
+    return info;
+}
+
+void put_list(PayloadWriter& payload, const ZoneList& list) {
+    payload.put(list.node.number()), payload.put(list.filed), payload.put(list.count), payload.put(list.low), payload.put(list.high);
+    payload.put(list.place.levels), payload.put(list.place.root), put_range(payload, list.place.list);
+}
+
+ZoneList get_list(PayloadReader& payload) {
+    ZoneList list;
+    list.node = ZoneNodeId(payload.get<ZoneNodeId::Number>());
+    list.filed = payload.get<std::uint32_t>(), list.count = payload.get<std::uint32_t>();
+    list.low = payload.get<double>(), list.high = payload.get<double>();
+    list.place.levels = payload.get<std::int64_t>(), list.place.root = payload.get<std::int64_t>();
+    list.place.list.first = payload.get<std::int64_t>(), list.place.list.count = payload.get<std::uint32_t>();
+    return list;
+}
+
+}  // namespace
+
+void put_directory(PayloadWriter& payload, const ZoneDirectory& directory) {
+    put_info(payload, directory.info);
+    put_tree(payload, directory.tree);
+    payload.put(std::ssize(directory.lists));
+    for (const ZoneList& list : directory.lists) put_list(payload, list);
+}
+
+ZoneDirectory get_directory(PayloadReader& payload, const BlockReader& file, ZoneLayout layout) {
+    ZoneDirectory directory{get_info(payload, file), get_tree(payload, file), {}};
+    const std::vector<ZoneNodeId> nodes = node_of_events(directory.tree, layout);
+    const auto lists = payload.get<std::int64_t>();
+    for (std::int64_t i = 0; i < lists; ++i) {
+        directory.lists.push_back(get_list(payload));
+        if (directory.lists.back().node.index() >= nodes.size()) file.fail("a list belongs to no zone");
+        if (i > 0 && directory.lists.back().node < directory.lists[static_cast<std::size_t>(i - 1)].node)
+            file.fail("the lists are out of order");
+    }
+    return directory;
+}
+
+}  // namespace isoatlas

@@ -1,0 +1,35 @@
+// Where the lists of a file of zones are.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "isoatlas/volume.h"
+#include "methods/disk/interval_tree_format.h"
+#include "methods/zones/zone_tree.h"
+
+namespace isoatlas {
+
+/// The list of a component.
+struct ZoneList {
+    ZoneNodeId node;
+    std::uint32_t filed = 0;    ///< its cells, those with equal samples included
+    std::uint32_t count = 0;    ///< its entries
+    double low = 0, high = 0;   ///< of its entries
+    IntervalTreePlace place{};  ///< no levels: a list in one block, by highest sample
+};
+
+/// What follows the lists in the file.
+struct ZoneDirectory {
+    VolumeInfo info;
+    StoredTree tree;
+    std::vector<ZoneList> lists;  ///< in the order of their nodes
+};
+
+inline constexpr std::string_view kZoneMagic = "isoatlas ZONES 1";
+
+void put_directory(PayloadWriter& payload, const ZoneDirectory& directory);
+/// Throws Error{input}: contents contradict each other.
+[[nodiscard]] ZoneDirectory get_directory(PayloadReader& payload, const BlockReader& file, ZoneLayout layout);
+
+}  // namespace isoatlas

@@ -1,0 +1,325 @@
+// Zone files give the active cells and the surface of every isovalue, read what the tables count, and refuse what is damaged.
+#include "isoatlas/zone_files.h"
+
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <fstream>
+#include <iterator>
+#include <set>
+
+#include "isoatlas/phantom.h"
+#include "oracle/mesh_checks.h"
+#include "oracle/stores.h"
+
+namespace oracle {
+namespace {
+
+using isoatlas::Analysis;
+using isoatlas::Boundary;
+using isoatlas::CellId;
+using isoatlas::CellSearchCost;
+using isoatlas::ExtractOptions;
+using isoatlas::Volume;
+using isoatlas::ZoneFileReads;
+using isoatlas::ZoneFileRow;
+using isoatlas::ZoneFileSearch;
+using isoatlas::ZoneLayout;
+
+std::vector<CellId> expected(const Volume& volume, double tau) {
+    CellSearchCost cost;
+    return isoatlas::make_cell_search(isoatlas::SearchMethod::brute_force, volume)->active(tau, cost);
+}
+
+ExtractOptions plain(isoatlas::Interpolant interpolant, Boundary boundary) {
+    ExtractOptions options{.interpolant = interpolant};
+    options.surface.boundary = boundary;
+    options.surface.normals = options.surface.ids = false;
+    return options;
+}
+
+bool has_cells(const Grid& grid) {
+    for (int axis = 0; axis < grid.rank; ++axis) {
+        if (grid.size[axis] < 2) return false;
+    }
+    return true;
+}
+
+/// Corners of all cells, in the order of their numbers.
+std::vector<std::vector<Index>> cells_of(const Grid& grid) {
+    std::vector<std::vector<Index>> cells;
+    const Index deep = grid.rank == 2 ? 1 : grid.size[2] - 1;
+    for (Index z = 0; z < deep; ++z) {
+        for (Index y = 0; y + 1 < grid.size[1]; ++y) {
+            for (Index x = 0; x + 1 < grid.size[0]; ++x) {
+                std::vector<Index> corners;
+                for (Index k = 0; k < (grid.rank == 2 ? 4 : 8); ++k)
+                    corners.push_back(grid.index(x + (k & 1), y + (k >> 1 & 1), z + (k >> 2)));
+                cells.push_back(corners);
+            }
+        }
+    }
+    return cells;
+}
+
+class ZoneFiles : public Stores {
+protected:
+    /// Of an arbitrary small volume, in a file of any kind.
+    struct Filed {
+        Grid grid;
+        Volume volume;
+        Analysis analysis;
+        isoatlas::ZoneFileOptions options;
+    };
+    Filed arbitrary_file(Index longest = 7, Index most = 100) {
+        Grid grid = *arbitrary_grid(longest, most);
+        Volume volume = to_volume(grid, arbitrary_type(grid));
+        volume.info.geometry = arbitrary_geometry(grid);
+        Analysis analysis = isoatlas::analyse(volume, {.interpolant = *arbitrary_interpolant()});
+        const isoatlas::ZoneFileOptions options{.block_bytes = *rc::gen::element<std::int64_t>(512, 1024, 65536),
+                                                .layout = *rc::gen::element(ZoneLayout::by_zone, ZoneLayout::by_path)};
+        isoatlas::write_zone_files(path_, volume, analysis, options);
+        return {std::move(grid), std::move(volume), std::move(analysis), options};
+    }
+};
+
+RC_GTEST_FIXTURE_PROP(ZoneFiles, GiveTheActiveCells, ()) {
+    const Filed filed = arbitrary_file(9, 400);
+    ZoneFileSearch file(path_);
+    for (const double tau : interesting_values(elements_of(filed.grid, isoatlas::Interpolant::faces))) {
+        CellSearchCost cost;
+        RC_ASSERT(file.active(tau, cost) == expected(filed.volume, tau));
+        const ZoneFileReads& reads = file.reads();
+        RC_ASSERT(cost.active <= reads.entries_active);
+        RC_ASSERT(reads.entries_active <= reads.cells_visited);
+        RC_ASSERT(reads.cells_visited <= reads.cells_loaded);
+        RC_ASSERT(cost.bytes_read == cost.blocks * filed.options.block_bytes);
+    }
+}
+
+RC_GTEST_FIXTURE_PROP(ZoneFiles, GiveTheSurfaceWithoutTheVolume, ()) {
+    const Filed filed = arbitrary_file();
+    ZoneFileSearch file(path_);
+    for (const double tau : interesting_values(elements_of(filed.grid, isoatlas::Interpolant::trilinear))) {
+        for (const isoatlas::Interpolant interpolant : {isoatlas::Interpolant::faces, isoatlas::Interpolant::trilinear}) {
+            for (const Boundary boundary : {Boundary::open, Boundary::closed}) {
+                if (boundary == Boundary::closed && !has_cells(filed.grid)) continue;
+                CellSearchCost cost;
+                const isoatlas::Surface found = file.extract(tau, plain(interpolant, boundary), cost);
+                RC_ASSERT(same(found, isoatlas::extract(filed.volume, tau, plain(interpolant, boundary))));
+            }
+        }
+    }
+}
+
+/// At most 4 lists of a cell begin at a sample above its neighbours in the cell, and a way to the root changes the path at most
+/// log2(events) times.
+RC_GTEST_FIXTURE_PROP(ZoneFiles, AreLinearByPath, ()) {
+    const Grid grid = *arbitrary_grid(9, 400);
+    const Volume volume = to_volume(grid, arbitrary_type(grid));
+    const Analysis analysis = isoatlas::analyse(volume);
+    isoatlas::write_zone_files(path_, volume, analysis);
+    const ZoneFileSearch file(path_);
+    const Index cells = std::ssize(cells_of(grid));
+    RC_ASSERT(file.entries() <= 4 * cells * std::bit_width(static_cast<std::uint64_t>(file.events())));
+    RC_ASSERT(file.entries() == isoatlas::count_zone_file_entries(volume, analysis, ZoneLayout::by_path));
+    RC_ASSERT(file.zones() <= file.events());
+    RC_ASSERT(file.components() <= file.zones());
+}
+
+RC_GTEST_FIXTURE_PROP(ZoneFiles, ReadWhatTheTableCounts, ()) {
+    const Filed filed = arbitrary_file();
+    ZoneFileSearch file(path_);
+    for (const ZoneFileRow& row : isoatlas::zone_file_table(file, filed.volume, filed.analysis, 1000)) {
+        RC_ASSERT(row.cost.active == row.counted.active);
+        if (filed.options.layout == ZoneLayout::by_path) continue;
+        RC_ASSERT(row.reads.cells_filed == row.counted.zones_loaded);
+        if (filed.options.block_bytes < 65536) continue;  // lists alone
+        RC_ASSERT(row.reads.cells_visited <= row.counted.zones_visited + row.reads.components);
+        RC_ASSERT(row.reads.cells_loaded <= row.counted.zones_loaded);
+    }
+}
+
+/// The active zone that a sample belongs to at tau.
+isoatlas::EventId object_of(const Analysis& analysis, Index voxel, double tau) {
+    isoatlas::EventId e = analysis.zone(isoatlas::VoxelId(voxel));
+    while (analysis.event(e).zone.tau_low >= tau) e = analysis.event(e).parent;
+    return e;
+}
+
+/// By path, an entry is active for each object that crosses a cell: those of its High corners. Ends of zones are exact in double samples.
+RC_GTEST_FIXTURE_PROP(ZoneFiles, HaveACellOnceForEachObject, ()) {
+    const Grid grid = *arbitrary_grid();
+    const Volume volume = to_volume(grid, isoatlas::ValueType::f64);
+    const Analysis analysis = isoatlas::analyse(volume, {.interpolant = *arbitrary_interpolant()});
+    isoatlas::write_zone_files(path_, volume, analysis, {.block_bytes = 512});
+    ZoneFileSearch file(path_);
+    for (const double tau : interesting_values(elements_of(grid, isoatlas::Interpolant::trilinear))) {
+        Index pairs = 0;
+        for (const auto& cell : cells_of(grid)) {
+            std::set<isoatlas::EventId> objects;
+            for (const Index v : cell) {
+                if (grid.value[v] >= tau) objects.insert(object_of(analysis, v, tau));
+            }
+            if (std::ranges::any_of(cell, [&](Index v) { return grid.value[v] < tau; })) pairs += std::ssize(objects);
+        }
+        CellSearchCost cost;
+        (void)file.active(tau, cost);
+        RC_ASSERT(file.reads().entries_active == pairs);
+    }
+}
+
+/// The points of a zone file, as the dissertation says: voxels of the zone, and those beside its object when it ends.
+std::set<Index> points_of(const Grid& grid, const Analysis& analysis, isoatlas::EventId event) {
+    const double end = analysis.event(event).zone.tau_low;
+    std::vector<bool> inside(static_cast<std::size_t>(grid.voxels()));
+    for (Index v = 0; v < grid.voxels(); ++v) {
+        isoatlas::EventId e = analysis.zone(isoatlas::VoxelId(v));
+        while (e != event && analysis.event(e).zone.tau_low > end) e = analysis.event(e).parent;
+        inside[v] = e == event;
+    }
+    std::set<Index> points;
+    for (Index v = 0; v < grid.voxels(); ++v) {
+        if (analysis.zone(isoatlas::VoxelId(v)) == event) points.insert(v);
+        for (int d = 0; d < grid.directions(); ++d) {
+            const Index other = grid.neighbour(v, d);
+            if (!inside[v] && other >= 0 && inside[other]) points.insert(v);
+        }
+    }
+    return points;
+}
+
+RC_GTEST_FIXTURE_PROP(ZoneFiles, HaveTheComponentsOfEachZone, ()) {
+    const Grid grid = *arbitrary_grid();
+    const Volume volume = to_volume(grid, arbitrary_type(grid));
+    const Analysis analysis = isoatlas::analyse(volume, {.interpolant = *arbitrary_interpolant()});
+    isoatlas::write_zone_files(path_, volume, analysis, {.block_bytes = 512, .layout = ZoneLayout::by_zone});
+    Index components = 0, filed = 0;
+    for (const isoatlas::EventId e : isoatlas::ids<isoatlas::EventId>(analysis.event_count())) {
+        const std::set<Index> points = points_of(grid, analysis, e);
+        std::vector<std::set<Index>> parts;  // of points that cells join
+        for (const auto& cell : cells_of(grid)) {
+            std::set<Index> own;
+            for (const Index v : cell) {
+                if (points.contains(v)) own.insert(v);
+            }
+            if (own.empty()) continue;
+            ++filed;
+            std::vector<std::set<Index>> others;
+            for (auto& part : parts) {
+                if (std::ranges::any_of(part, [&](Index v) { return own.contains(v); }))
+                    own.insert(part.begin(), part.end());
+                else
+                    others.push_back(part);
+            }
+            others.push_back(own);
+            parts = std::move(others);
+        }
+        components += std::ssize(parts);
+    }
+    const ZoneFileSearch file(path_);
+    RC_ASSERT(file.components() == components);
+    RC_ASSERT(file.zones() == analysis.event_count());
+    RC_ASSERT(isoatlas::count_zone_file_entries(volume, analysis, ZoneLayout::by_zone) == filed);
+}
+
+TEST_F(ZoneFiles, HaveACellBetweenTwoObjectsTwice) {
+    const Volume volume = isoatlas::make_volume<float>({3, {2, 2, 2}}, std::vector<float>{9, 0, 0, 0, 0, 0, 0, 7});
+    const Analysis analysis = isoatlas::analyse(volume, {.interpolant = isoatlas::Interpolant::faces});
+    isoatlas::write_zone_files(path_, volume, analysis);
+    ZoneFileSearch file(path_);
+    EXPECT_EQ(file.entries(), 2);
+    for (const auto& [tau, entries] : {std::pair{8.0, 1}, std::pair{5.0, 2}}) {
+        CellSearchCost cost;
+        EXPECT_EQ(file.active(tau, cost), std::vector{CellId(0)}) << tau;
+        EXPECT_EQ(file.reads().entries_active, entries) << tau;
+        EXPECT_EQ(cost.blocks, 1) << tau;
+    }
+}
+
+TEST_F(ZoneFiles, OfOneHillAreOneTree) {
+    std::vector<float> samples;
+    for (int v = 0; v < 12 * 12 * 12; ++v) {
+        const int x = v % 12 - 5, y = v / 12 % 12 - 6, z = v / 144 - 5;
+        samples.push_back(static_cast<float>(-(x * x + y * y + z * z)));
+    }
+    const Volume volume = isoatlas::make_volume<float>({3, {12, 12, 12}}, samples);
+    isoatlas::write_zone_files(path_, volume, isoatlas::analyse(volume), {.block_bytes = 512});
+    ZoneFileSearch file(path_);
+    EXPECT_EQ(file.events(), 1);
+    EXPECT_EQ(file.components(), 1);
+    EXPECT_EQ(file.entries(), 11 * 11 * 11);
+    CellSearchCost cost;
+    EXPECT_EQ(file.active(-30.5, cost), expected(volume, -30.5));
+    EXPECT_GT(cost.nodes, 1);
+    EXPECT_LT(cost.blocks, 2 * file.entries() / (504 / 44));
+    EXPECT_LT(cost.bytes_read, file.file_bytes() / 2);
+}
+
+TEST_F(ZoneFiles, RefuseWhatIsTooLargeOrWrong) {
+    const Volume volume = isoatlas::make_phantom("noise", {.size = 8});
+    const Analysis analysis = isoatlas::analyse(volume);
+    const std::int64_t entries = isoatlas::count_zone_file_entries(volume, analysis, ZoneLayout::by_zone);
+    EXPECT_GT(entries, isoatlas::count_zone_file_entries(volume, analysis, ZoneLayout::by_path));
+    for (const ZoneLayout layout : {ZoneLayout::by_zone, ZoneLayout::by_path}) {
+        const std::int64_t all = isoatlas::count_zone_file_entries(volume, analysis, layout);
+        EXPECT_NO_THROW(isoatlas::write_zone_files(path_, volume, analysis, {.layout = layout, .max_entries = all}));
+        EXPECT_THROW(isoatlas::write_zone_files(path_, volume, analysis, {.layout = layout, .max_entries = all - 1}), isoatlas::Error);
+    }
+    const Volume other = isoatlas::make_phantom("noise", {.size = 9});
+    EXPECT_THROW(isoatlas::write_zone_files(path_, other, analysis), isoatlas::Error);
+    EXPECT_THROW(isoatlas::write_zone_files(path_, volume, isoatlas::analyse(volume, {.zones = false})), isoatlas::Error);
+    EXPECT_THROW(isoatlas::write_zone_files(path_, volume, analysis, {.block_bytes = 1000}), isoatlas::Error);
+    ZoneFileSearch file(path_);
+    CellSearchCost cost;
+    EXPECT_THROW((void)file.active(std::nan(""), cost), isoatlas::Error);
+    EXPECT_THROW((void)file.extract(0.5, {}, cost), isoatlas::Error);
+}
+
+TEST_F(ZoneFiles, RefuseDamage) {
+    const Volume volume = isoatlas::make_phantom("noise", {.size = 10});
+    isoatlas::write_zone_files(path_, volume, isoatlas::analyse(volume), {.block_bytes = 512});
+    std::ifstream in(path_, std::ios::binary);
+    const std::string good((std::istreambuf_iterator<char>(in)), {});
+    // Either refused, or the damaged block was not read.
+    const auto refuses = [&](const std::string& bytes) {
+        std::ofstream(path_, std::ios::binary | std::ios::trunc) << bytes;
+        for (const double tau : {0.25, 0.5, 0.75}) {
+            try {
+                CellSearchCost cost;
+                if (ZoneFileSearch(path_).active(tau, cost) != expected(volume, tau)) return false;
+            } catch (const isoatlas::Error& error) {
+                if (error.kind() != isoatlas::ErrorKind::input) return false;
+            }
+        }
+        return true;
+    };
+    const auto opens = [&](const std::string& bytes) {
+        std::ofstream(path_, std::ios::binary | std::ios::trunc) << bytes;
+        try {
+            (void)ZoneFileSearch(path_);
+            return true;
+        } catch (const isoatlas::Error&) {
+            return false;
+        }
+    };
+    for (const std::size_t size : {std::size_t{0}, std::size_t{31}, std::size_t{511}, std::size_t{512}, good.size() - 1, good.size() - 512})
+        EXPECT_FALSE(opens(good.substr(0, size))) << size;
+    EXPECT_FALSE(opens(good + "x"));
+    for (std::size_t at = 0; at < good.size(); at += 1 + good.size() / 300) {
+        std::string bad = good;
+        bad[at] = static_cast<char>(bad[at] ^ 0x10);
+        EXPECT_TRUE(refuses(bad)) << at;
+    }
+    std::string bad = good;
+    bad[bad.size() - 20] = static_cast<char>(bad[bad.size() - 20] ^ 1);  // of the directory
+    EXPECT_FALSE(opens(bad));
+    EXPECT_TRUE(opens(good));
+    EXPECT_TRUE(refuses(good));
+}
+
+}  // namespace
+}  // namespace oracle
