@@ -129,10 +129,14 @@ ordered_json measure(const Arguments& arguments, const Volume& volume, const iso
             isoatlas::CellSearchCost cost;
             query += seconds_of([&] { (void)file.active(row.counted.tau, cost); });
         }
-        result = {{"entries", file.entries()},       {"written", true},
-                  {"build_seconds", build},          {"file_bytes", file.file_bytes()},
-                  {"tree_bytes", file.bytes()},      {"zones", file.zones()},
-                  {"components", file.components()}, {"queries", means(rows)},
+        result = {{"entries", file.entries()},
+                  {"written", true},
+                  {"build_seconds", build},
+                  {"file_bytes", file.file_bytes()},
+                  {"tree_bytes", file.bytes()},
+                  {"zones", file.zones()},
+                  {"components", file.components()},
+                  {"queries", means(rows)},
                   {"query_seconds", rows.empty() ? 0 : query / static_cast<double>(rows.size())},
                   {"same_surface", rows.empty() || gives_the_surface(file, volume, rows[rows.size() / 2].counted.tau)}};
     }

@@ -237,11 +237,11 @@ def libraries_in_cmake(root):
     return found
 
 
-TYPE = re.compile(r"^(?:template <[^\n]*>\n?)?(?:class|struct|enum class|concept|using) (\w+)(?=[^;\n:]*[{=]|[^;\n]* : )", re.M)
+TYPE = re.compile(r"^(?:template <[^\n]*>\n?)?(?:class|struct|enum class|concept|using) (\w+)\b(?!<)(?=[^;\n:]*[{=]|[^;\n]* : )", re.M)
 
 
 def twice(headers):
-    """Types that two headers declare under one name. headers: path -> text."""
+    """Types that two headers declare under one name; a specialisation declares none. headers: path -> text."""
     seen = {}
     for path, text in headers.items():
         for name in set(TYPE.findall(without_comments_and_strings(text))):
