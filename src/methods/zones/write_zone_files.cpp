@@ -62,10 +62,10 @@ private:
         return entry;
     }
     [[nodiscard]] EntryRange put(std::span<const Entry> entries) {
-        const auto in_block = static_cast<std::int64_t>(in_block_);
-        if (short_ && short_->next() % in_block + std::ssize(entries) > in_block) flush();
+        const std::int64_t size = std::ssize(entries), in_block = static_cast<std::int64_t>(in_block_);
+        if (short_ && short_->ranges(std::span(&size, 1)).front().first % in_block + size > in_block) flush();
         if (!short_) short_.emplace(file_);
-        return short_->put_all(entries);
+        return short_->put(entries);
     }
 
     BlockWriter& file_;
