@@ -132,11 +132,38 @@ describe("surfaces", () => {
   });
 });
 
+describe("surfaces as points", () => {
+  it("come after coarse triangles, and again as triangles", async () => {
+    const asked: string[] = [];
+    const mesh = { triangles: 8, bytes: 9, coarse: false, isOpen: false } as Mesh;
+    const api = {
+      surface: (_: string, tau: number, __: unknown, most: number) => (asked.push(`${tau} at most ${most}`), Promise.resolve(mesh)),
+      points: (_: string, tau: number) => (asked.push(`points ${tau}`), Promise.resolve({ ...mesh, isOpen: true })),
+    } as unknown as Api;
+    const surfaces = new Surfaces(
+      api,
+      () => undefined,
+      () => undefined,
+    );
+    surfaces.drawAsPoints(true);
+    surfaces.request(0, request(1), false);
+    await surfaces.settled();
+    expect(asked).toEqual(["1 at most 20000", "points 1"]);
+    expect(surfaces.loadStateOf(0)).toMatchObject({ key: "1 all", points: 4, coarse: false });
+    surfaces.drawAsPoints(false);
+    surfaces.request(0, request(1), false);
+    await surfaces.settled();
+    expect(asked.slice(2)).toEqual(["1 at most 20000"]);
+    expect(surfaces.loadStateOf(0)).toMatchObject({ points: 0, triangles: 8 });
+  });
+});
+
 describe("the state of a surface", () => {
-  const there = { key: "5 all", triangles: 1234, bytes: 9, coarse: true, walls: null, waiting: true, error: "" };
+  const there = { key: "5 all", triangles: 1234, points: 0, bytes: 0, coarse: true, walls: null, waiting: true, error: "" };
   it("is its load state in words", () => {
     const shown = shownAt(0, 5);
     expect(noteOf(shown, there)).toBe("at 5, 1,234 triangles, coarse");
+    expect(noteOf(shown, { ...there, points: 617 })).toBe("at 5, 617 points");
     expect(noteOf({ ...shown, tau: 6 }, there)).toBe("at 6, loading");
     expect(noteOf({ ...shown, visible: false }, there)).toBe("at 5, hidden");
     expect(noteOf(shown, { ...there, triangles: 0, error: failureText(new ServerError(404, "no")) })).toBe("at 5, does not exist");

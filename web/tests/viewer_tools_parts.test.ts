@@ -76,7 +76,7 @@ function ball(middle: Triple, radius: number, pieces = 96): Mesh {
     normals: new Int8Array(positions.length),
     corners: Uint32Array.from(corners),
     triangles: corners.length / 3,
-    coarse: false,
+    coarse: false, isOpen: false,
     bytes: 0,
   };
 }
