@@ -133,6 +133,7 @@ describe("surfaces", () => {
 });
 
 describe("surfaces as points", () => {
+  const request = (tau: number) => ({ tau, target: null, walls: "all" as const });
   it("come after coarse triangles, and again as triangles", async () => {
     const asked: string[] = [];
     const mesh = { triangles: 8, bytes: 9, coarse: false, isOpen: false } as Mesh;
