@@ -147,28 +147,23 @@ private:
     }
 
     void put_corner(TreeNode& node, const NodeLists& lists, std::span<const Entry> own) {
-        const std::vector<CornerWindow> windows = lists.windows();
-        std::vector<std::int64_t> sizes;
-        std::vector<std::size_t> window_of(static_cast<std::size_t>(node.slabs()), 0);
-        for (const CornerWindow& window : windows) {
-            for (int slab = window.first; slab <= window.last; ++slab) window_of[static_cast<std::size_t>(slab)] = sizes.size();
-            sizes.push_back(window.entries);
-        }
-        const std::vector<EntryRange> ranges = stream_.ranges(sizes);
+        const CornerStructure corner = lists.corner();
+        const std::vector<EntryRange> parts = stream_.ranges(corner.sizes());
         node.corner.assign(static_cast<std::size_t>(node.slabs()), {});
-        for (int slab = 1; slab + 1 < node.slabs(); ++slab)
-            node.corner[static_cast<std::size_t>(slab)] = ranges[window_of[static_cast<std::size_t>(slab)]];
-        Array<Entry> corner(static_cast<std::size_t>(std::reduce(sizes.begin(), sizes.end())));
-        if (corner.empty()) return;
-        DealtLists<Entry> dealt(corner, sizes);
+        for (int slab = 1; slab + 1 < node.slabs(); ++slab) {
+            const EntryRange &first = parts[corner.first_part(slab)], &last = parts[corner.last_part(slab)];
+            node.corner[static_cast<std::size_t>(slab)] = {first.first, static_cast<std::uint32_t>(last.first + last.count - first.first)};
+        }
+        Array<Entry> all(static_cast<std::size_t>(std::reduce(corner.sizes().begin(), corner.sizes().end())));
+        if (all.empty()) return;
+        DealtLists<Entry> dealt(all, corner.sizes());
         for_each_entry(own, [&](const Entry& entry) {
             const SlabPair slabs = slabs_of_ends(node.keys, entry);
             if (!slabs.spans_slabs() || !lists.is_short(lists.multi_of(slabs))) return;
-            const std::size_t last = window_of[static_cast<std::size_t>(slabs.q - 1)];
-            for (std::size_t window = window_of[static_cast<std::size_t>(slabs.p + 1)]; window <= last; ++window) dealt.put(window, entry);
+            corner.for_parts(slabs.p + 1, slabs.q - 1, [&](std::size_t part) { dealt.put(part, entry); });
         });
         dealt.finish();
-        (void)stream_.put(corner);
+        (void)stream_.put(all);
     }
 
     static SlabPair slabs_of_ends(const std::vector<double>& keys, const Entry& entry) {

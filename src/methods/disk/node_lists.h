@@ -36,11 +36,11 @@ public:
     [[nodiscard]] std::size_t multi_of(const SlabPair& slabs) const { return place_of_multi(slabs.p + 1, slabs.q - 1, slabs_); }
     /// Is it kept in the corner structure? Reading half a block of active entries is worth it.
     [[nodiscard]] bool is_short(std::size_t list) const { return 2 * multi[list] < in_block_; }
-    [[nodiscard]] std::vector<CornerWindow> windows() const {
-        return corner_windows(slabs_, in_block_, [this](int p, int q) {
-            const std::size_t list = place_of_multi(p, q, slabs_);
-            return is_short(list) ? multi[list] : 0;
-        });
+    [[nodiscard]] CornerStructure corner() const {
+        return {slabs_, in_block_, [this](int p, int q) {
+                    const std::size_t list = place_of_multi(p, q, slabs_);
+                    return is_short(list) ? multi[list] : 0;
+                }};
     }
 
     std::vector<std::int64_t> inside, left, right, multi;

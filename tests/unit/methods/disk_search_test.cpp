@@ -10,6 +10,7 @@
 #include <fstream>
 #include <iterator>
 #include <memory>
+#include <numeric>
 #include <optional>
 #include <span>
 
@@ -146,8 +147,8 @@ RC_GTEST_FIXTURE_PROP(DiskSearch, KeepsSeveralTreesInAFile, ()) {
     }
 }
 
-/// Windows of a corner structure cover the slabs in order, hold what is active in each, at most twice that and a block, and all together
-/// less than five times what there is.
+/// Windows of a corner structure cover the slabs in order and have at most twice what is active in a slab and a block, all together less
+/// than five times what there is; a slab reads what is active in it once, and what begins and ends in the window before it.
 RC_GTEST_PROP(CornerStructure, IsShortAndReadsLittle, ()) {
     const int slabs = *rc::gen::inRange(2, 30);
     const auto in_block = *rc::gen::inRange<std::int64_t>(2, 200);
@@ -162,18 +163,31 @@ RC_GTEST_PROP(CornerStructure, IsShortAndReadsLittle, ()) {
         }
         return entries;
     };
+    const isoatlas::CornerStructure corner(slabs, in_block, count_of);
     int next = 1;
-    std::int64_t all = 0;
-    for (const isoatlas::CornerWindow& window : isoatlas::corner_windows(slabs, in_block, count_of)) {
+    for (const isoatlas::CornerStructure::Window& window : corner.windows()) {
         RC_ASSERT(window.first == next && window.last >= window.first);
         RC_ASSERT(window.entries == reaching(window.first, window.last));
         for (int slab = window.first; slab <= window.last; ++slab) {
             RC_ASSERT(window.entries <= 2 * reaching(slab, slab) + in_block);
+            std::int64_t read = 0, active = 0, begin_and_end_there = 0;
+            for (std::size_t part = corner.first_part(slab); part <= corner.last_part(slab); ++part) read += corner.sizes()[part];
+            for (int p = 1; p <= slabs - 2; ++p) {
+                for (int q = p; q <= slabs - 2; ++q) {
+                    corner.for_parts(p, q, [&](std::size_t part) {
+                        if (part < corner.first_part(slab) || part > corner.last_part(slab)) return;
+                        active += p <= slab && slab <= q ? count_of(p, q) : 0;
+                        begin_and_end_there += p > window.first && q < slab ? count_of(p, q) : 0;
+                    });
+                }
+            }
+            RC_ASSERT(active == reaching(slab, slab));
+            RC_ASSERT(read == active + begin_and_end_there);
         }
         next = window.last + 1;
-        all += window.entries;
     }
     RC_ASSERT(next == std::max(1, slabs - 1));
+    const std::int64_t all = std::reduce(corner.sizes().begin(), corner.sizes().end());
     RC_ASSERT(all <= 5 * reaching(1, slabs - 2));
 }
 
