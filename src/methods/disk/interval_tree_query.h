@@ -77,11 +77,10 @@ private:
             for (int q = std::max(p, slab); q <= slabs - 2; ++q)
                 scan(node.multi[place_of_multi(p, q, slabs)], visit, [](const Entry&) { return Take{true, true}; });
         }
-        // Those that begin or end in the slab are in the other lists.
-        scan(node.corner[at], visit, [&](const Entry& e) {
-            const double low = static_cast<double>(e.low), high = static_cast<double>(e.high);
-            return Take{slab_of(node.keys, low) < slab && slab < slab_of(node.keys, high), true};
-        });
+        if (slab == 0 || slab == slabs - 1) return;
+        const double begin = node.keys[at - 1], end = node.keys[at];  // what begins or ends between them is in the other lists
+        scan(node.corner[at], visit,
+             [begin, end](const Entry& e) { return Take{static_cast<double>(e.low) <= begin && static_cast<double>(e.high) > end, true}; });
     }
 
     struct Take {
