@@ -66,8 +66,9 @@ public:
     /// Ascending. nodes: of the tree that were visited, and nodes of interval trees. Throws Error{input}: damaged.
     [[nodiscard]] std::vector<CellId> active(double tau, CellSearchCost& cost) override;
     /// The surface, from the file alone: samples at the corners of active cells are in their entries, and any other sample is on the same
-    /// side of tau as its neighbours. The same bytes as extract() of the volume. Normals and ids need samples beyond active cells, objects
-    /// and contours are told apart by them: Error{usage} if options ask for these. Cost: O(volume) memory and time beside the query.
+    /// side of tau as its neighbours. The same bytes as extract() of the volume. Throws Error: usage if options ask for normals, which need
+    /// samples beyond active cells, for ids, objects or contours, which are named after such samples, or for a closed surface of a volume
+    /// without cells; input: damaged. Cost: O(volume) memory and time beside the query.
     [[nodiscard]] Surface extract(double tau, const ExtractOptions& options, CellSearchCost& cost, const Context& context = {});
     /// Of the last query.
     [[nodiscard]] const ZoneFileReads& reads() const;

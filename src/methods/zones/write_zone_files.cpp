@@ -153,7 +153,10 @@ void write_zone_files(const std::string& path, const Volume& volume, const Analy
     PayloadWriter payload;
     put_directory(payload, directory);
     const StreamPlace place = write_stream(file, payload.bytes());
-    file.commit({static_cast<std::int64_t>(options.layout), place.first, place.bytes, 0, 0, 0, 0, 0});
+    HeaderNumbers numbers{};
+    numbers[kZoneLayout] = static_cast<std::int64_t>(options.layout);
+    numbers[kDirectory] = place.first, numbers[kDirectoryBytes] = place.bytes;
+    file.commit(numbers);
 }
 
 }  // namespace isoatlas

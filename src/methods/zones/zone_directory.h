@@ -26,7 +26,10 @@ struct ZoneDirectory {
     std::vector<ZoneList> lists;  ///< in the order of their nodes
 };
 
+// The file: its header, the lists as blocks of entries and nodes of interval trees, and the directory, as a stream of bytes.
 inline constexpr std::string_view kZoneMagic = "isoatlas ZONES 1";
+/// Numbers of the header.
+inline constexpr std::size_t kZoneLayout = 0, kDirectory = 1, kDirectoryBytes = 2;
 
 void put_directory(PayloadWriter& payload, const ZoneDirectory& directory);
 /// Throws Error{input}: contents contradict each other.

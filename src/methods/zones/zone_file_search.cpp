@@ -5,6 +5,7 @@
 #include "isoatlas/environment.h"
 #include "isoatlas/error.h"
 #include "isoatlas/zone_files.h"
+#include "levelset/volume_cells.h"
 #include "methods/zones/block_stream.h"
 #include "methods/zones/list_reader.h"
 #include "methods/zones/restore_samples.h"
@@ -12,11 +13,8 @@
 namespace isoatlas {
 namespace {
 
-/// Numbers of the header.
-constexpr std::size_t kLayout = 0, kDirectory = 1, kDirectoryBytes = 2;
-
 ZoneLayout layout_of(const BlockReader& file) {
-    const std::int64_t number = file.numbers()[kLayout];
+    const std::int64_t number = file.numbers()[kZoneLayout];
     if (number != 0 && number != 1) file.fail("the layout is unknown");
     return static_cast<ZoneLayout>(number);
 }
@@ -27,13 +25,17 @@ ZoneDirectory directory_of(const BlockReader& file) {
     return get_directory(payload, file, layout_of(file));
 }
 
-void require_cells_alone(const ExtractOptions& options) {
+/// Is the surface one of active cells alone?
+void require_cells(const ExtractOptions& options, const Extent& extent) {
     const SurfaceOptions& surface = options.surface;
-    if (!surface.normals && !surface.ids && surface.objects.empty() && surface.contours.empty() && surface.shell == ShellChoice::all)
-        return;
-    throw Error(ErrorKind::usage, {.what = "normals, ids and chosen objects need samples beyond active cells",
-                                   .expected = "a whole surface without normals and ids",
-                                   .next = "extract it from the volume, or from a store"});
+    if (surface.normals || surface.ids || !surface.objects.empty() || !surface.contours.empty() || surface.shell != ShellChoice::all)
+        throw Error(ErrorKind::usage, {.what = "normals, ids and chosen objects need samples beyond active cells",
+                                       .expected = "a whole surface without normals and ids",
+                                       .next = "extract it from the volume, or from a store"});
+    if (surface.boundary == Boundary::closed && cell_count(extent) == 0)
+        throw Error(ErrorKind::usage, {.what = "a volume that is one sample thick has no cells to close a surface from",
+                                       .expected = "an open surface",
+                                       .next = "extract it from the volume, or from a store"});
 }
 
 }  // namespace
@@ -103,7 +105,7 @@ std::vector<CellId> ZoneFileSearch::active(double tau, CellSearchCost& cost) {
 Surface ZoneFileSearch::extract(double tau, const ExtractOptions& options, CellSearchCost& cost, const Context& context) {
     const EnvironmentScope scope(context);
     require_isovalue(tau);
-    require_cells_alone(options);
+    require_cells(options, data_->info.extent);
     return visit_type(data_->info.type, [&]<class T>(T) {
         const std::vector<ZoneCell<T>> active = data_->find<T>(tau, cost);
         const Volume volume = restore_samples<T>(data_->info, active, tau, tau <= data_->highest);

@@ -23,6 +23,7 @@ std::vector<std::size_t> evenly_chosen(std::size_t count, std::int64_t most) {
 std::int64_t brick_bytes(const std::string& store, double tau, const Context& context) {
     const Atlas atlas(store);
     SurfaceOptions options;
+    options.boundary = Boundary::open;
     options.normals = options.ids = false;
     (void)atlas.extract(tau, options, context);
     return atlas.reads().bytes;
