@@ -72,6 +72,7 @@ public:
     [[nodiscard]] Surface extract(double tau, const ExtractOptions& options, CellSearchCost& cost, const Context& context = {});
     /// Of the last query.
     [[nodiscard]] const ZoneFileReads& reads() const;
+    void drop_pages() override;
 
     /// The tree in memory.
     [[nodiscard]] std::int64_t bytes() const override;

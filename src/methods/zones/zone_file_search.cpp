@@ -114,6 +114,7 @@ Surface ZoneFileSearch::extract(double tau, const ExtractOptions& options, CellS
 }
 
 const ZoneFileReads& ZoneFileSearch::reads() const { return data_->reads; }
+void ZoneFileSearch::drop_pages() { data_->file.drop_pages(); }
 std::int64_t ZoneFileSearch::bytes() const {
     const Data& data = *data_;
     return data.tree.bytes() +

@@ -11,6 +11,7 @@
 #include <iterator>
 #include <set>
 
+#include "faults/memory_files.h"
 #include "isoatlas/phantom.h"
 #include "oracle/mesh_checks.h"
 #include "oracle/stores.h"
@@ -58,8 +59,15 @@ std::vector<std::vector<Index>> cells_of(const Grid& grid) {
     return cells;
 }
 
-class ZoneFiles : public Stores {
+class ZoneFileBytes : public Stores {};
+
+/// Files in memory.
+class ZoneFiles : public testing::Test {
 protected:
+    isoatlas::test::MemoryFiles disk_;
+    isoatlas::ReplacedFileSystem files_{disk_};
+    std::string path_ = "zones";
+
     /// Of an arbitrary small volume, in a file of any kind.
     struct Filed {
         Grid grid;
@@ -275,7 +283,7 @@ TEST_F(ZoneFiles, RefuseWhatIsTooLargeOrWrong) {
     EXPECT_THROW((void)file.extract(0.5, {}, cost), isoatlas::Error);
 }
 
-TEST_F(ZoneFiles, RefuseDamage) {
+TEST_F(ZoneFileBytes, AreRefusedWhenDamaged) {
     const Volume volume = isoatlas::make_phantom("noise", {.size = 10});
     isoatlas::write_zone_files(path_, volume, isoatlas::analyse(volume), {.block_bytes = 512});
     std::ifstream in(path_, std::ios::binary);
