@@ -70,6 +70,7 @@
 #include "isoatlas/survey.h"
 #include "isoatlas/text.h"
 #include "isoatlas/thickness.h"
+#include "isoatlas/trilinear_distance.h"
 #include "isoatlas/units.h"
 #include "isoatlas/verify.h"
 #include "isoatlas/version.h"
