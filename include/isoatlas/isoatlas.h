@@ -65,6 +65,7 @@
 #include "isoatlas/sink.h"
 #include "isoatlas/spectrum.h"
 #include "isoatlas/surface.h"
+#include "isoatlas/surface_defects.h"
 #include "isoatlas/surface_methods.h"
 #include "isoatlas/surface_points.h"
 #include "isoatlas/survey.h"

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 
 namespace isoatlas {
 
@@ -16,6 +17,9 @@ namespace isoatlas {
 
 /// Throws what output_target() throws.
 void check_output_file(const std::string& path);
+
+/// Writes the bytes as the whole file: under its name is the old file or this one. Throws Error{resource}.
+void write_output(const std::string& path, std::string_view bytes);
 
 /// Removes what this process is writing, where the disk gives it a name before it is finished: for signal handlers, before they end the
 /// process (async-signal-safe). What has no name is gone with the process.

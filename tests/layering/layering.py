@@ -44,7 +44,7 @@ PUBLIC = {
     "methods/search": "cell_search method_info",
     "methods/disk": "brick_search disk_search",
     "methods/zones": "zone_files",
-    "methods/surfaces": "surface_methods surface_points trilinear_distance",
+    "methods/surfaces": "surface_defects surface_methods surface_points trilinear_distance",
     "catalogue": "page",
     "page": "label_page",
     "server": "client server",

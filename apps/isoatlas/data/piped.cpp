@@ -21,8 +21,8 @@ constexpr std::size_t kBlock = std::size_t{1} << 20;
 /// Of `-o -` alone; `-o -.stl` says another one.
 std::string extension_of(const Arguments& arguments) {
     static const std::map<std::string, const char*> kDefault{
-        {"atlas", ".html"}, {"measure", ".csv"},  {"extract", ".ply"}, {"render", ".png"},   {"animate", ".gif"}, {"tree", ".json"},
-        {"label", ".nrrd"}, {"spectrum", ".csv"}, {"build", ".atlas"}, {"convert", ".nrrd"}, {"phantom", ".nrrd"}};
+        {"atlas", ".html"}, {"measure", ".csv"},  {"extract", ".ply"}, {"render", ".png"},   {"animate", ".gif"},  {"tree", ".json"},
+        {"label", ".nrrd"}, {"spectrum", ".csv"}, {"build", ".atlas"}, {"convert", ".nrrd"}, {"phantom", ".nrrd"}, {"compare", ".html"}};
     if (arguments.output != "-") return arguments.output.substr(1);
     const auto found = kDefault.find(arguments.verb);
     if (found == kDefault.end()) refuse("`isoatlas " + arguments.verb + "` cannot write to standard output", "give -o the name of a file");

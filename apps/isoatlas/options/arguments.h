@@ -74,8 +74,10 @@ struct Arguments {
     std::int64_t top = 0;  ///< 0: not given
     Selection selection;   ///< as typed: reported units
     bool selects = false, persistence_in_percent = false;
-    std::string curve;                    ///< file
+    std::string curve;                    ///< file; of compare: the table
     std::optional<std::int64_t> samples;  ///< number of isovalues to measure
+    std::optional<std::int64_t> sizes;    ///< compare: number of volumes
+    std::string methods;                  ///< compare: names, separated by commas
     int levels = 8;
     bool full = false;
     std::uint64_t seed = 1;

@@ -164,9 +164,21 @@ void spectrum_options(CLI::App& app, Arguments& arguments, Typed& typed) {
 
 void table131_options(CLI::App& app, Arguments& /*arguments*/, Typed& typed) { add_shape(app, typed); }
 
-void compare_options(CLI::App& app, Arguments& /*arguments*/, Typed& typed) {
-    add_tau(app, typed, "The isovalue whose active cells are searched");
+void compare_options(CLI::App& app, Arguments& arguments, Typed& typed) {
+    add_tau(app, typed, "The isovalue of the surfaces, whose active cells are searched");
     add_shape(app, typed);
+    app.add_option("--methods", arguments.methods, "Only these: names as in --json, separated by commas; surfaces, searches, or all")
+        ->type_name("LIST");
+    add_number(app, "--isovalues", arguments.samples, "Also search at N isovalues, to see how times grow (with a page 9; 0: none)")
+        ->check(in_range(std::int64_t{0}, std::int64_t{1000}))
+        ->type_name("N");
+    add_number(app, "--sizes", arguments.sizes, "Also search N - 1 coarser volumes, of every 2nd, 4th, ... sample (with a page 4; 0: none)")
+        ->check(in_range(std::int64_t{0}, std::int64_t{16}))
+        ->type_name("N");
+    app.add_option("--csv", arguments.curve, "Write all numbers as a table (.csv)")->type_name("FILE");
+    app.add_option("--memory", typed.memory, "Leave out searches that would need more, such as 1G or 500M; default: half of the memory")
+        ->type_name("SIZE");
+    add_output(app, arguments, ".html: pictures, tables and plots; .webp .png: pictures alone", false);
 }
 
 void convert_options(CLI::App& app, Arguments& arguments, Typed& typed) {

@@ -135,8 +135,9 @@ const std::vector<Verb> kVerbs{
      "VOLUME",
      "Run the methods of the literature on a volume: the surfaces that they make, with their holes, and what they look at to find active "
      "cells.",
-     {"isoatlas compare scan.nii.gz --tau 300", "isoatlas compare scan.nii.gz --tau 300 --box 40:60,50:70,30:50",
-      "isoatlas compare scan.atlas --tau 300 --json"},
+     {"isoatlas compare scan.nii.gz --tau 300", "isoatlas compare scan.nii.gz --tau 300 -o compare.html",
+      "isoatlas compare scan.nii.gz --tau 300 --methods octree,interval-tree --isovalues 20 --csv compare.csv",
+      "isoatlas compare scan.atlas --tau 300 --box 40:60,50:70,30:50 --json"},
      run_compare},
     {"dump",
      "STORE",

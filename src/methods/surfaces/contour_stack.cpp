@@ -76,13 +76,17 @@ bool is_inside(const Vec3& p, const std::vector<Vec3>& polygon) {
     return inside;
 }
 
+bool is_in_box(const Vec3& p, const Contour& contour) {
+    return contour.low[0] <= p[0] && p[0] <= contour.high[0] && contour.low[1] <= p[1] && p[1] <= contour.high[1];
+}
+
 bool overlap(const Contour& p, const Contour& q) {
     if (p.is_hole != q.is_hole) return false;
     for (std::size_t axis = 0; axis < 2; ++axis) {
         if (p.low[axis] > q.high[axis] || q.low[axis] > p.high[axis]) return false;
     }
     const auto lies_in = [](const Contour& one, const Contour& other) {
-        return std::ranges::any_of(one.corners, [&](const Vec3& corner) { return is_inside(corner, other.corners); });
+        return std::ranges::any_of(one.corners, [&](const Vec3& corner) { return is_in_box(corner, other) && is_inside(corner, other.corners); });
     };
     return lies_in(p, q) || lies_in(q, p);
 }

@@ -20,7 +20,7 @@ struct Strip {
     std::vector<bool> is_lower{};  ///< of each triangle: on an edge of the lower polygon
 };
 
-inline constexpr std::int64_t kMaxOptimalGrid = std::int64_t{1} << 20;  ///< corners times corners
+inline constexpr std::int64_t kMaxOptimalGrid = std::int64_t{1} << 16;  ///< corners times corners
 
 /// The strip of the smallest area; of polygons with more than kMaxOptimalGrid pairs of corners one by shorter diagonals. At least 3 corners
 /// each.

@@ -1,0 +1,107 @@
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "compare/output.h"
+#include "text/table.h"
+#include "text/terminal.h"
+#include "text/values.h"
+
+namespace isoatlas::cli {
+namespace {
+
+void print_surfaces(Terminal& terminal, const Comparison& found) {
+    Table table({{"method", true},
+                 {"section", true},
+                 {"ms"},
+                 {"triangles"},
+                 {"points"},
+                 {"size"},
+                 {"beside it"},
+                 {"components"},
+                 {"of them wrong"},
+                 {"Euler number"},
+                 {"edges of holes"},
+                 {"non-manifold edges"},
+                 {"zero-area triangles"}});
+    for (const ExtractedSurface& one : found.surfaces) {
+        const auto of_surface = [&](std::int64_t count) { return one.is_points ? std::string("-") : count_text(count); };
+        table.add({one.method.title, one.method.section, milliseconds(one.seconds), of_surface(one.triangles), count_text(one.points),
+                   size_text(one.bytes), size_text(one.cost.bytes), of_surface(one.components), of_surface(one.wrong_components),
+                   of_surface(one.euler), of_surface(one.hole_edges), of_surface(one.non_manifold_edges),
+                   of_surface(one.zero_area_triangles)});
+    }
+    table.print(terminal);
+    terminal.out()
+        << "\nSurfaces are open where they leave the volume. Wrong components cross other edges of the grid than any component of "
+           "the\ntrilinear surface. Beside it: memory beside samples and surface.\n\n";
+}
+
+void print_searches(Terminal& terminal, const Comparison& found) {
+    Table table({{"method", true},
+                 {"section", true},
+                 {"build, ms"},
+                 {"query, ms"},
+                 {"cells looked at"},
+                 {"nodes"},
+                 {"blocks read"},
+                 {"memory"},
+                 {"file"}});
+    bool is_complete = true;
+    for (const SearchRun& one : found.searches) {
+        if (one.missing_memory > 0) {
+            is_complete = false;
+            table.add({one.method.title, one.method.section, "-", "-", "-", "-", "-", "about " + size_text(one.missing_memory), "-"});
+            continue;
+        }
+        const bool is_file = one.file_bytes > 0;
+        table.add({one.method.title, one.method.section, milliseconds(one.build_seconds), milliseconds(one.query.seconds),
+                   count_text(one.query.cost.cells), count_text(one.query.cost.nodes), is_file ? count_text(one.query.cost.blocks) : "-",
+                   size_text(one.bytes), is_file ? size_text(one.file_bytes) : "-"});
+    }
+    table.print(terminal);
+    terminal.out() << '\n'
+                   << counted(found.active, "active cell") << " of " << count_text(found.cells)
+                   << "; every method finds them all. Sections are those of the dissertation\n";
+    if (!is_complete) terminal.out() << "Methods without times would have needed more memory than --memory allows\n";
+}
+
+void print_growth(Terminal& terminal, const Comparison& found) {
+    const std::vector<Growth> all = growth_of(found);
+    if (all.empty()) return;
+    std::vector<Table::Column> columns{{"exponent of", true}};
+    for (const Growth& growth : all) columns.push_back({growth.title});
+    Table table(columns);
+    for (const SearchRun& one : found.searches) {
+        std::vector<std::string> row{one.method.title};
+        for (const Growth& growth : all) {
+            std::string cell = "-";
+            for (const Growth::Line& line : growth.lines) {
+                if (line.name == one.method.title && line.exponent) cell = fmt::format("{:.2f}", *line.exponent);
+            }
+            row.push_back(cell);
+        }
+        table.add(row);
+    }
+    terminal.out() << '\n';
+    table.print(terminal);
+    terminal.out() << "\nk: active cells, at " << counted(std::ssize(found.isovalues), "isovalue") << "; n: all cells, of "
+                   << counted(std::ssize(found.sizes), "volume") << " of every so many samples\n";
+}
+
+}  // namespace
+
+std::string milliseconds(double seconds) {
+    const double ms = 1e3 * seconds;
+    return fmt::format("{:.{}f}", ms, ms < 1 ? 3 : ms < 10 ? 2 : ms < 100 ? 1 : 0);
+}
+
+std::string size_text(std::int64_t bytes) { return bytes_text(static_cast<double>(bytes)); }
+
+void print_text(Terminal& terminal, const Comparison& found) {
+    if (!found.surfaces.empty()) print_surfaces(terminal, found);
+    if (!found.searches.empty()) print_searches(terminal, found);
+    print_growth(terminal, found);
+}
+
+}  // namespace isoatlas::cli

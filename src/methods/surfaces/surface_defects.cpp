@@ -1,0 +1,46 @@
+#include "isoatlas/surface_defects.h"
+
+#include <algorithm>
+
+#include "isoatlas/surface_methods.h"
+#include "methods/surfaces/grid_positions.h"
+
+namespace isoatlas {
+namespace {
+
+using Edge = SurfaceDefects::Edge;
+
+/// Two sides that are parallel or have no length: as inspect() counts them.
+bool has_zero_area(const Surface& surface, const std::array<std::int64_t, 3>& triangle) {
+    const Vec3 &p = surface.points[triangle[0]], &q = surface.points[triangle[1]], &r = surface.points[triangle[2]];
+    const Vec3 a{q[0] - p[0], q[1] - p[1], q[2] - p[2]}, b{r[0] - p[0], r[1] - p[1], r[2] - p[2]};
+    return a[1] * b[2] == a[2] * b[1] && a[2] * b[0] == a[0] * b[2] && a[0] * b[1] == a[1] * b[0];
+}
+
+}  // namespace
+
+SurfaceDefects find_defects(const Surface& surface, const VolumeInfo& info) {
+    const GridPositions positions(info);
+    SurfaceDefects defects;
+    std::vector<Edge> edges;
+    for (std::size_t number = 0; number < surface.triangles.size(); ++number) {
+        const auto& t = surface.triangles[number];
+        for (std::size_t i = 0; i < 3; ++i) edges.push_back({std::min(t[i], t[(i + 1) % 3]), std::max(t[i], t[(i + 1) % 3])});
+        if (has_zero_area(surface, t)) defects.zero_area_triangles.push_back(static_cast<std::int64_t>(number));
+    }
+    std::ranges::sort(edges);
+    for (std::size_t begin = 0, end = 0; begin < edges.size(); begin = end) {
+        const Edge& edge = edges[begin];
+        for (end = begin; end < edges.size() && edges[end] == edge; ++end) {
+        }
+        if (end - begin > 2) defects.non_manifold_edges.push_back(edge);
+        const bool is_open = end - begin == 1;
+        if (is_open && (positions.ends_of(surface.points[edge[0]]) & positions.ends_of(surface.points[edge[1]])) == 0)
+            defects.hole_edges.push_back(edge);
+    }
+    return defects;
+}
+
+std::int64_t count_hole_edges(const Surface& surface, const VolumeInfo& info) { return std::ssize(find_defects(surface, info).hole_edges); }
+
+}  // namespace isoatlas
