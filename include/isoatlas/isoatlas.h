@@ -55,6 +55,7 @@
 #include "isoatlas/phantom.h"
 #include "isoatlas/polarity.h"
 #include "isoatlas/print.h"
+#include "isoatlas/projection_methods.h"
 #include "isoatlas/render.h"
 #include "isoatlas/search_table.h"
 #include "isoatlas/segmentation.h"

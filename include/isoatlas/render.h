@@ -79,15 +79,36 @@ struct TransferCurve {
 /// Extinction per unit of length of matter that absorbs `opacity`, [0, 1), of the light over `length`.
 [[nodiscard]] double extinction_of(double opacity, double length);
 
-/// Volume rendering of a participating medium: emission and absorption, composited front to back together with surfaces and slices. Tents
-/// and curves add up.
+/// What matter does to light (Max, Optical models for direct volume rendering, 1995; dissertation, section 2.1). s is the extinction of the
+/// transfer function and C its colour; T(a, b) = exp(-integral of s from a to b) is what passes.
+enum class OpticalModel : std::uint8_t {
+    absorption,           ///< takes T from the light behind it, and is black
+    emission,             ///< adds the integral of s C and takes nothing; not on a transparent background
+    absorption_emission,  ///< the integral of s C T(eye, point), shaded by the lights of the camera where options say so
+    single_scattering,    ///< as before, C times the light that comes from a lamp through the matter, and is scattered once
+    multiple_scattering   ///< light is scattered any number of times: path tracing
+};
+
+/// Of the scattering models; they know no shading by gradients.
+struct Scattering {
+    double albedo = 1;      ///< scattered part of the light that matter takes, 0 to 1; times its colour
+    double asymmetry = 0;   ///< mean cosine of the angle by which light turns (Henyey and Greenstein, 1941), -0.99 to 0.99; 0: isotropic
+    Vec3 to_light{};        ///< direction to the lamp, which is infinitely far; zero: the key light of the camera
+    double light = 1;       ///< irradiance of the lamp divided by 4 pi: a thin isotropic white medium looks as if it had emission alone
+    double sky = 0;         ///< radiance from all directions; multiple scattering only
+    int max_events = 1000;  ///< a path ends after so many; multiple scattering only
+};
+
+/// Volume rendering of a participating medium, composited front to back together with surfaces and slices. Tents and curves add up.
 struct SceneVolume {
     const Volume* volume = nullptr;  ///< must live as long as the picture is drawn; null: none. No rectilinear grids
     std::vector<OpacityTent> tents{};
     std::vector<TransferCurve> curves{};
     std::optional<std::array<double, 2>> range{};  ///< lowest and highest sample; unset: computed
-    bool shadows = false;                          ///< single scattering of the key light: the medium and opaque surfaces cast shadows
+    bool shadows = false;                          ///< of the medium and of opaque surfaces, in the shading of absorption_emission
     double sample_distance = 1;                    ///< between two samples along a ray, in the smallest spacing; 0.05 to 16
+    OpticalModel optics = OpticalModel::absorption_emission;
+    Scattering scattering{};  ///< opaque surfaces cast shadows on what scatters, and throw no light back
 };
 
 struct Scene {
@@ -159,8 +180,10 @@ struct ScaleBar {
 /// pixel_size: physical size of a pixel.
 [[nodiscard]] ScaleBar scale_bar(double pixel_size, std::int64_t width, const std::string& unit);
 
-/// The picture. Throws Error: usage (sizes, opacity, sample distance, a 2D surface, points without normals or transparent), cancelled.
-/// Cost: O(triangles log triangles) once, then rays: some ten per pixel and sample.
+/// The picture. Throws Error: usage (sizes, opacity, sample distance, a 2D surface, points without normals or transparent, numbers of a
+/// scattering model), cancelled.
+/// Cost: O(triangles log triangles) once, then rays: some ten per pixel and sample. Single scattering: a ray to the lamp for every sample
+/// of a ray; multiple scattering: two more for every event of a path.
 [[nodiscard]] Image render_scene(const Scene& scene, const Camera& camera, const RenderOptions& options = {}, const Context& context = {});
 
 struct SliceContour {

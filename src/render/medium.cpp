@@ -121,24 +121,35 @@ void Medium::go(const Ray& ray, double begin, double end, double shift, const Li
     visit_type(volume_->info.type, [&]<class T>(T) { go_through<T>(ray, begin, end, shift, lights, gathered); });
 }
 
-template <class T>
-void Medium::go_through(const Ray& ray, double begin, double end, double shift, const Lights* lights, Gathered& gathered) const {
-    const Vec3 origin = voxel_of(ray.origin), way = voxel_direction(ray.direction), to_eye = scale(ray.direction, -1);
+Medium::Passage Medium::passage_of(const Ray& ray, double begin, double end) const {
+    const Vec3 origin = voxel_of(ray.origin), way = voxel_direction(ray.direction);
     Vec3 high{};
     for (int a = 0; a < 3; ++a) high[a] = static_cast<double>(volume_->info.extent.size[a] - 1);
     const Gap inside = inside_box(origin, way, {0, 0, 0}, high);
-    begin = std::max(begin, inside.begin), end = std::min(end, inside.end);
-    if (!(begin < end)) return;
+    return {origin, way, std::max(begin, inside.begin), std::min(end, inside.end)};
+}
+
+template <class T>
+void Medium::go_through(const Ray& ray, double begin, double end, double shift, const Lights* lights, Gathered& gathered) const {
+    const Passage passage = passage_of(ray, begin, end);
+    if (!(passage.begin < passage.end)) return;
+    const Vec3 to_eye = scale(ray.direction, -1), half = lights == nullptr ? Vec3{} : lights->half_way(to_eye);
     const Trilinear<T> values(*volume_, transfer_.scale());
-    const RaySegments segments{origin, way, step_, std::floor(begin / step_ - shift) + shift, begin, end};
-    const Vec3 half = lights == nullptr ? Vec3{} : lights->half_way(to_eye);
     const auto shade_segment = [&](Vec3& light, double weight, double middle) {
         if (lights == nullptr || !(weight > kMin)) return;
-        const Vec3 voxel = along(origin, middle, way);
+        const Vec3 voxel = along(passage.origin, middle, passage.way);
         Vec3 fall;
         values.fall(voxel, fall);
         this->shade(fall, *lights, voxel, to_eye, half, light);
     };
+    walk(values, passage, shift,
+         [&](std::span<const double> t, std::span<const float> place) { return absorb(t, place, transfer_, shade_segment, gathered); });
+}
+
+template <class T, class Take>
+void Medium::walk(const Trilinear<T>& values, const Passage& passage, double shift, const Take& take) const {
+    const auto& [origin, way, begin, end] = passage;
+    const RaySegments segments{origin, way, step_, std::floor(begin / step_ - shift) + shift, begin, end};
     // Segments are evaluated kLanes at a time: t[0] and place[0] are those of the end of `segment`, the last one that is done.
     std::int64_t segment = -1;
     std::array<double, kLanes + 1> t;
@@ -156,12 +167,26 @@ void Medium::go_through(const Ray& ray, double begin, double end, double shift, 
                           std::span<float, kLanes>(place.data() + known, kLanes));
             std::size_t count = 1;
             while (count + 1 < kLanes + known && t[count] < to) ++count;
-            if (!absorb(std::span(t).first(count + 1), place, transfer_, shade_segment, gathered)) return false;
+            if (!take(std::span<const double>(t).first(count + 1), std::span<const float>(place))) return false;
             segment += static_cast<std::int64_t>(count);
             t[0] = t[count], place[0] = place[count], has_place = true;
         }
         return true;
     });
+}
+
+void Medium::visit_matter(const Ray& ray, double begin, double end, double shift,
+                          const std::function<bool(const MatterSegment&)>& visit) const {
+    const Passage passage = passage_of(ray, begin, end);
+    if (!(passage.begin < passage.end)) return;
+    const auto take = [&](std::span<const double> t, std::span<const float> place) {
+        for (std::size_t i = 0; i + 1 < t.size(); ++i) {
+            const OpticalProperties matter = transfer_.mean(static_cast<double>(place[i]), static_cast<double>(place[i + 1]));
+            if (matter.extinction > 0 && t[i] < t[i + 1] && !visit({t[i], t[i + 1], matter})) return false;
+        }
+        return true;
+    };
+    visit_type(volume_->info.type, [&]<class T>(T) { walk(Trilinear<T>(*volume_, transfer_.scale()), passage, shift, take); });
 }
 
 ShadowGrid Medium::shadows(const RaySurfaces& solid, int threads) const {

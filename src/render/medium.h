@@ -1,6 +1,8 @@
 // Volume rendering of a participating medium: emission and absorption, composited front to back (Max, 1995).
 #pragma once
 
+#include <functional>
+
 #include "isoatlas/render.h"
 #include "render/camera_rays.h"
 #include "render/empty_space.h"
@@ -18,6 +20,12 @@ struct Gathered {
     double opacity = 0;
 };
 
+/// A segment of a ray with matter in it.
+struct MatterSegment {
+    double begin, end;  ///< t
+    OpticalProperties matter;
+};
+
 class Medium {
 public:
     /// The scene must live as long as this. lights: null: the medium is unlit. solid: surfaces that cast shadows on the medium.
@@ -26,16 +34,28 @@ public:
 
     /// Adds the medium between t = begin and end of a ray of the frame, `shift` in [0, 1): offset of the segments within a step.
     void march(const Ray& ray, double begin, double end, double shift, Gathered& gathered) const;
+    /// Calls visit(segment) for every segment with matter between t = begin and end, front to back, until it returns false.
+    void visit_matter(const Ray& ray, double begin, double end, double shift, const std::function<bool(const MatterSegment&)>& visit) const;
+    [[nodiscard]] double step() const { return step_; }  ///< length of a segment, in the frame
     /// Visibility of the key light from a point of the frame; 1 without shadows.
     [[nodiscard]] double lit(const Vec3& point) const { return shadow_.light(voxel_of(point)); }
 
 private:
+    /// A ray in samples, and where it is inside of the volume.
+    struct Passage {
+        Vec3 origin, way;
+        double begin, end;
+    };
     Medium(const Scene& scene, const Frame& frame, const Lights* lights, const BlockRanges& blocks, const RaySurfaces& solid, int threads);
     [[nodiscard]] Vec3 voxel_of(const Vec3& point) const;       ///< sample position of a point of the frame
     [[nodiscard]] Vec3 voxel_direction(const Vec3& way) const;  ///< the same for a difference
     void go(const Ray& ray, double begin, double end, double shift, const Lights* lights, Gathered& gathered) const;
     template <class T>
     void go_through(const Ray& ray, double begin, double end, double shift, const Lights* lights, Gathered& gathered) const;
+    /// Calls take(t, place) with the ends of segments, see absorb(), until it returns false.
+    template <class T, class Take>
+    void walk(const Trilinear<T>& values, const Passage& passage, double shift, const Take& take) const;
+    [[nodiscard]] Passage passage_of(const Ray& ray, double begin, double end) const;
     /// Turns the colour of matter with some differences of samples (Trilinear::fall) into its light. half: lights.half_way(to_eye).
     void shade(const Vec3& fall, const Lights& lights, const Vec3& voxel, const Vec3& to_eye, const Vec3& half, Vec3& light) const;
     [[nodiscard]] ShadowGrid shadows(const RaySurfaces& solid, int threads) const;

@@ -17,18 +17,34 @@ constexpr PhasePlan<2> kDrawPhases{{"prepare surfaces", "draw"}};
 constexpr std::int64_t kTile = 16;
 constexpr std::int64_t kMaxSide = 16384;
 
-[[noreturn]] void refuse(const std::string& what, const std::string& expected) {
-    throw Error(ErrorKind::usage, {.what = what, .expected = expected});
+[[noreturn]] void refuse(const std::string& what, const std::string& expected, const std::string& next = "") {
+    throw Error(ErrorKind::usage, {.what = what, .expected = expected, .next = next});
 }
 
 void check_points(const SceneObject& object) {
     if (object.surface.normals.size() != object.surface.points.size()) refuse("points without normals", "a normal for each point");
     if (object.opacity < 1)
-        throw Error(ErrorKind::usage, {.what = "points cannot be transparent: where their discs overlap each would absorb",
-                                       .next = "draw them opaque, or a surface of triangles"});
+        refuse("points cannot be transparent: where their discs overlap each would absorb", "opaque points",
+               "draw them opaque, or a surface of triangles");
+}
+
+void check_optics(const SceneVolume& volume, const RenderOptions& options) {
+    const Scattering& scattering = volume.scattering;
+    const auto within = [](double value, double low, double high) { return value >= low && value <= high; };
+    if (volume.shadows && volume.optics != OpticalModel::absorption_emission)
+        refuse("shadows belong to the shading of absorption and emission", "no shadows with another optical model",
+               "draw it by single scattering, where matter casts shadows by itself");
+    if (volume.optics == OpticalModel::emission && options.background == Background::transparent)
+        refuse("emission adds to what is behind it, and has no opacity", "a light or a dark background", "draw it on a dark background");
+    if (!within(scattering.albedo, 0, 1)) refuse("the albedo of matter is out of range", "0 to 1");
+    if (!within(scattering.asymmetry, -0.99, 0.99)) refuse("the asymmetry of scattering is out of range", "-0.99 to 0.99");
+    if (!within(scattering.light, 0, 1e6) || !within(scattering.sky, 0, 1e6)) refuse("a light is out of range", "0 to 1000000");
+    if (scattering.max_events < 1) refuse("a path of light has no event", "1 or more");
+    if (!std::isfinite(length(scattering.to_light))) refuse("the direction to the lamp is not finite", "three finite numbers");
 }
 
 void check_options(const Scene& scene, const RenderOptions& options) {
+    check_optics(scene.volume, options);
     if (options.width < 1 || options.height < 1 || options.width > kMaxSide || options.height > kMaxSide)
         refuse("a picture of " + std::to_string(options.width) + " x " + std::to_string(options.height) + " pixels", "1 to 16384 each");
     if (options.samples < 1 || options.samples > 256) refuse("the number of samples per pixel is out of range", "1 to 256");

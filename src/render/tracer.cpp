@@ -55,7 +55,10 @@ Tracer::Tracer(const Scene& scene, const Frame& frame, const CameraRays& camera,
       lights_(camera),
       lift_(lift_of(scene, frame)) {
     for (const SceneObject& object : scene.objects) albedo_.push_back(linear(object.colour));
-    if (scene.volume.volume != nullptr) medium_.emplace(scene, frame, shading ? &lights_ : nullptr, opaque_, threads);
+    if (scene.volume.volume == nullptr) return;
+    medium_.emplace(scene, frame, shading ? &lights_ : nullptr, opaque_, threads);
+    if (scene.volume.optics != OpticalModel::absorption_emission)
+        optics_.emplace(scene.volume, *medium_, lights_.to_key({0, 0}), opaque_, removed_);
 }
 
 Seen Tracer::trace(const Ray& ray, std::uint32_t seed, std::uint32_t sample, Workspace& work) const {
@@ -68,7 +71,7 @@ Seen Tracer::trace(const Ray& ray, std::uint32_t seed, std::uint32_t sample, Wor
     slices_.add(ray, max, work.layers);
     std::stable_sort(work.layers.begin(), work.layers.end(), [](const Layer& a, const Layer& b) { return a.t < b.t; });
     const double shift = fraction_of(hash(seed ^ 0x51ed270bU) + sample * 2654435769U);
-    gather(ray, max, gap, shift, work.layers, seen);
+    gather(ray, max, gap, {shift, hash(seed, sample)}, work.layers, seen);
     if (!hit) return seen;
     add_opaque(ray, *hit, seen);
     if (shading_) look_around(ray, *hit, seed, sample, seen);
@@ -76,28 +79,30 @@ Seen Tracer::trace(const Ray& ray, std::uint32_t seed, std::uint32_t sample, Wor
 }
 
 /// Composites everything in front of the opaque surface, front to back: layers, and the medium between them.
-void Tracer::gather(const Ray& ray, double max, const Gap& gap, double shift, const std::vector<Layer>& layers, Seen& seen) const {
+void Tracer::gather(const Ray& ray, double max, const Gap& gap, const RayNumbers& numbers, const std::vector<Layer>& layers,
+                    Seen& seen) const {
     Gathered gathered;
     double begin = 0;
     for (const Layer& layer : layers) {
-        march(ray, begin, layer.t, gap, shift, gathered);
+        march(ray, begin, layer.t, gap, numbers, gathered);
         const double weight = (1 - gathered.opacity) * layer.opacity;
         gathered.light = along(gathered.light, weight, layer.light);
         gathered.opacity += weight;
         begin = layer.t;
     }
-    march(ray, begin, max, gap, shift, gathered);
+    march(ray, begin, max, gap, numbers, gathered);
     seen.glow = gathered.light, seen.opacity = gathered.opacity;
 }
 
-void Tracer::march(const Ray& ray, double begin, double end, const Gap& gap, double shift, Gathered& gathered) const {
+void Tracer::march(const Ray& ray, double begin, double end, const Gap& gap, const RayNumbers& numbers, Gathered& gathered) const {
     if (!medium_) return;
+    if (optics_) return optics_->march(ray, begin, end, numbers, gathered);
     if (gap.empty()) {
-        medium_->march(ray, begin, end, shift, gathered);
+        medium_->march(ray, begin, end, numbers.shift, gathered);
         return;
     }
-    medium_->march(ray, begin, std::min(end, gap.begin), shift, gathered);
-    medium_->march(ray, std::max(begin, gap.end), end, shift, gathered);
+    medium_->march(ray, begin, std::min(end, gap.begin), numbers.shift, gathered);
+    medium_->march(ray, std::max(begin, gap.end), end, numbers.shift, gathered);
 }
 
 std::optional<Crossing> Tracer::first_opaque(const Ray& ray, const Gap& gap, std::vector<Crossing>& crossings) const {

@@ -8,6 +8,7 @@
 #include "render/layers.h"
 #include "render/lights.h"
 #include "render/medium.h"
+#include "render/optics.h"
 #include "render/ray_surfaces.h"
 
 namespace isoatlas {
@@ -39,8 +40,8 @@ public:
 
 private:
     void add_sheets(const Ray& ray, double max, const Gap& gap, Workspace& work) const;
-    void gather(const Ray& ray, double max, const Gap& gap, double shift, const std::vector<Layer>& layers, Seen& seen) const;
-    void march(const Ray& ray, double begin, double end, const Gap& gap, double shift, Gathered& gathered) const;
+    void gather(const Ray& ray, double max, const Gap& gap, const RayNumbers& numbers, const std::vector<Layer>& layers, Seen& seen) const;
+    void march(const Ray& ray, double begin, double end, const Gap& gap, const RayNumbers& numbers, Gathered& gathered) const;
     [[nodiscard]] std::optional<Crossing> first_opaque(const Ray& ray, const Gap& gap, std::vector<Crossing>& crossings) const;
     void add_opaque(const Ray& ray, const Crossing& crossing, Seen& seen) const;
     void look_around(const Ray& ray, const Crossing& crossing, std::uint32_t seed, std::uint32_t sample, Seen& seen) const;
@@ -53,8 +54,9 @@ private:
     RaySlices slices_;
     Lights lights_;
     std::optional<Medium> medium_;
-    std::vector<Vec3> albedo_;  ///< of every object
-    double lift_;               ///< offset of rays to lights above a surface
+    std::optional<Optics> optics_;  ///< none: the default model, which is that of the medium
+    std::vector<Vec3> albedo_;      ///< of every object
+    double lift_;                   ///< offset of rays to lights above a surface
 };
 
 }  // namespace isoatlas

@@ -121,6 +121,36 @@ class Pictures(CliTest):
         for wrong in ("flesh", "flesh:60:0:#FF0000", "flesh:60:1:red", "flesh:60:1:#FF0000:1", ":60:1:#FF0000", "flesh:x:1:#FF0000"):
             self.run_error(2, "render", "figure.nrrd", "-o", "p.png", "--material", wrong, says="--material")
 
+    def test_optical_models(self):
+        matter = ("--transfer", "30:0:#FF8000,60:0.05,100:0.05", "--view", "30,20", "--plain")
+        default = self.picture("figure.nrrd", *matter)
+        self.assertEqual(default, self.picture("figure.nrrd", *matter, "--optics", "absorption-emission"))
+        seen = [default]
+        for model in ("absorption", "emission", "single-scattering", "multiple-scattering"):
+            seen.append(self.picture("figure.nrrd", *matter, "--optics", model))
+            self.assertNotIn(seen[-1], seen[:-1], model)
+        for option in (["--albedo", "0.5"], ["--asymmetry", "0.6"], ["--light=-x"], ["--sky", "0.5"]):
+            self.assertNotEqual(seen[-1], self.picture("figure.nrrd", *matter, "--optics", "multiple-scattering", *option), option)
+        document = self.run_json("render", "figure.nrrd", *matter, "--optics", "multiple-scattering", "--light=0,0,2", "--sky", "0.5", *self.small, "-o", "o.png")
+        self.assert_schema(document, "render")
+        self.assertEqual(document["optics"], {"model": "multiple-scattering", "albedo": 1, "asymmetry": 0, "light": [0, 0, 1], "sky": 0.5})
+        document = self.run_json("render", "figure.nrrd", "--tau", "60", *self.small, "-o", "o.png")
+        self.assertIsNone(document["optics"])
+
+    def test_errors_of_optical_models(self):
+        volume, single = ("--volume",), ("--volume", "--optics", "single-scattering")
+        for wrong, says in (((*volume, "--optics", "reflection"), "multiple-scattering"),
+                            (("--tau", "60", "--optics", "emission"), "add --volume"),
+                            ((*single, "--shadows"), "leave out --shadows"),
+                            ((*volume, "--optics", "emission", "--background", "transparent"), "--background dark"),
+                            ((*volume, "--albedo", "0.5"), "--optics single-scattering"),
+                            ((*volume, "--optics", "absorption", "--light=x"), "does not"),
+                            ((*single, "--sky", "1"), "add --optics multiple-scattering"),
+                            ((*single, "--albedo", "1.5"), "--albedo"),
+                            ((*single, "--asymmetry=-1"), "--asymmetry"),
+                            ((*single, "--light=0,0,0"), "--light")):
+            self.run_error(2, "render", "figure.nrrd", "-o", "p.png", *wrong, says=says)
+
     def test_opacity_curves(self):
         flesh, bone = "30:0:#FF0000,60:0.2,80:0", "80:0:#00FF00,90:0.5:#0000FF,100:0.5"
         document = self.run_json("render", "figure.nrrd", "--transfer", flesh, f"--transfer={bone}", *self.small, "-o", "c.png")

@@ -7,7 +7,7 @@ import { CUT, moved, outlineOf, planeOf, turned } from "../src/viewer/state/cut_
 import { acrossAndDown, AXES, distance, dot, Grid, type AxisNumber, type Triple } from "../src/viewer/state/grid";
 import { innermostFirst } from "../src/viewer/api/locate";
 import { linearOf } from "../src/viewer/state/light";
-import { VOLUME_DENSITY } from "../src/viewer/state/volume_state";
+import { VOLUME_DENSITY, VOLUME_OPTICS } from "../src/viewer/state/volume_state";
 import { angleOf, arcOf, lengthOf, MEASURES } from "../src/viewer/state/measures";
 import { SlicedMesh } from "../src/viewer/scene/plane_cut";
 import { clipped, firstHit } from "../src/viewer/scene/ray";
@@ -256,6 +256,11 @@ describe("slices and the volume", () => {
     expect(renderOptions(scene, NOTHING)).toEqual([]);
     const slices = CROSSHAIR.with(PLANES.with(NOTHING, true), [3, 4, 99]);
     expect(renderOptions(scene, VOLUME_DENSITY.with(slices, 0.5))).toEqual(["--slice x=3", "--slice y=4", "--slice z=29", "--volume"]);
+    const scattering = VOLUME_OPTICS.with(NOTHING, "single-scattering");
+    expect(renderOptions(scene, VOLUME_DENSITY.with(scattering, 1))).toEqual(["--volume", "--optics single-scattering"]);
+    expect(renderOptions(scene, scattering)).toEqual([]); // there is no volume in the picture
+    expect(fromHash("#scene=&volume=1&optics=emission", 0)?.parts).toEqual({ volume: "1", optics: "emission" });
+    for (const bad of ["scattering", "Emission", ""]) expect(VOLUME_OPTICS.accepts(bad), bad).toBe(false);
     for (const bad of ["0", "-1", "17", "x", ""]) expect(VOLUME_DENSITY.accepts(bad), bad).toBe(false);
     expect(fromHash("#scene=&matter=0.5", 0)?.parts).toEqual({ volume: "0.5" }); // its key before version 0.2
     for (const bad of ["1,2", "1,2,-3", "1,2,3.5", "1,2,3,4"]) expect(CROSSHAIR.accepts(bad), bad).toBe(false);

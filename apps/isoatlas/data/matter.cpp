@@ -61,8 +61,11 @@ SceneVolume matter_of(const Arguments& arguments, Source& source, std::size_t fi
     const PictureArguments& picture = arguments.picture;
     if (!picture.volume) return {};
     const ValueRange range = source.range();
-    SceneVolume matter{
-        .range = std::array<double, 2>{range.low, range.high}, .shadows = picture.shadows, .sample_distance = picture.sample_distance};
+    SceneVolume matter{.range = std::array<double, 2>{range.low, range.high},
+                       .shadows = picture.shadows,
+                       .sample_distance = picture.sample_distance,
+                       .optics = picture.optics,
+                       .scattering = picture.scattering};
     if (!picture.materials.empty()) matter.curves = material_transfer(materials_of(picture, source.info()), *matter.range);
     for (const ShownCurve& shown : picture.curves) matter.curves.push_back(curve_of(shown, source.info()));
     if (picture.materials.empty() && picture.curves.empty()) matter.tents = proposed_tents(source, *matter.range, first_colour);

@@ -109,23 +109,6 @@ ShownSlice shown_slice(const std::string& word) {
     return {.axis = word[0] - 'x', .index = *index};
 }
 
-/// An axis, or any direction as three numbers; of length 1.
-Vec3 direction_of(const std::string& word) {
-    const std::string axis = word.starts_with('-') ? word.substr(1) : word;
-    Vec3 up{0, 0, 0};
-    if (axis == "x" || axis == "y" || axis == "z") {
-        up[static_cast<std::size_t>(axis[0] - 'x')] = word == axis ? 1 : -1;
-        return up;
-    }
-    const bool has_three = std::count(word.begin(), word.end(), ',') == 2;
-    double squares = 0;
-    if (has_three) up = parse_vector("--up", word, 0);
-    for (const double u : up) squares += u * u;
-    if (!(squares > 0) || !std::isfinite(squares)) bad("--up", word, "x, y, z, -x, -y, -z or a direction such as 0.5,0,0.866");
-    for (double& u : up) u /= std::sqrt(squares);
-    return up;
-}
-
 std::optional<View> view_of(const std::string& word, const Vec3& up) {
     if (word == "auto") return std::nullopt;
     if (word == "front") return view_from(0, 0, up);
@@ -152,6 +135,22 @@ void convert_size(const std::string& word, PictureArguments& picture) {
 
 }  // namespace
 
+Vec3 direction_of(const std::string& option, const std::string& word) {
+    const std::string axis = word.starts_with('-') ? word.substr(1) : word;
+    Vec3 way{0, 0, 0};
+    if (axis == "x" || axis == "y" || axis == "z") {
+        way[static_cast<std::size_t>(axis[0] - 'x')] = word == axis ? 1 : -1;
+        return way;
+    }
+    const bool has_three = std::count(word.begin(), word.end(), ',') == 2;
+    double squares = 0;
+    if (has_three) way = parse_vector(option, word, 0);
+    for (const double u : way) squares += u * u;
+    if (!(squares > 0) || !std::isfinite(squares)) bad(option, word, "x, y, z, -x, -y, -z or a direction such as 0.5,0,0.866");
+    for (double& u : way) u /= std::sqrt(squares);
+    return way;
+}
+
 void convert_picture(const PictureWords& words, PictureArguments& picture) {
     picture.taus = words.taus;
     picture.opacities = words.opacities;
@@ -176,13 +175,14 @@ void convert_picture(const PictureWords& words, PictureArguments& picture) {
     if (picture.flat && picture.slices.empty())
         throw Error(ErrorKind::usage, {.what = "--flat requires a slice", .next = "add --slice z=N, with N from 0"});
     convert_cut(words.cut, picture);
-    picture.up = direction_of(words.up);
+    picture.up = direction_of("--up", words.up);
     picture.view = view_of(words.view, picture.up);
     picture.camera = shown_camera(words);
     convert_size(words.size, picture);
     picture.background =
         parse_choice<Background>("--background", words.background,
                                  {{"light", Background::light}, {"dark", Background::dark}, {"transparent", Background::transparent}});
+    convert_optics(words, picture);
 }
 
 }  // namespace isoatlas::cli

@@ -3,6 +3,7 @@
 
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <isoatlas/isoatlas.h>
@@ -17,6 +18,8 @@ struct PictureWords {
     std::vector<std::string> objects, contours, cavities, colours, slices, materials, curves;
     std::string cut, view = "auto", up = "z", size = "768x768", background = "light";
     std::string eye, target;
+    std::string optics = "absorption-emission", light;
+    std::optional<double> albedo, asymmetry, sky;
     double height = 0;  ///< 0: not given
 };
 
@@ -88,10 +91,18 @@ struct PictureArguments {
     bool volume = false, shadows = false, flat = false;
     double sample_distance = 1;  ///< of volume rendering, in voxels
     int points = 0;              ///< divisions of Dividing Cubes; 0: surfaces are triangles
+    OpticalModel optics = OpticalModel::absorption_emission;
+    Scattering scattering;
 };
 
 /// Throws Error{usage} that names the option and its valid values.
 void convert_picture(const PictureWords& words, PictureArguments& picture);
+
+/// An axis such as -x, or any direction as three numbers; of length 1. Throws Error{usage} that names the option.
+[[nodiscard]] Vec3 direction_of(const std::string& option, const std::string& word);
+/// --optics, --albedo, --asymmetry, --light, --sky, as convert_picture(); after the rest.
+void convert_optics(const PictureWords& words, PictureArguments& picture);
+[[nodiscard]] std::string_view optics_name(OpticalModel model);
 
 [[nodiscard]] RenderOptions options_of_picture(const PictureArguments& picture);
 /// Camera of --eye, --target and --height. Throws Error{usage} when --eye or --target is missing.

@@ -34,6 +34,15 @@ void add_picture(CLI::App& app, Arguments& arguments, PictureWords& words) {
     add("--transfer", words.curves, "Volume rendering by an opacity curve: values, opacities of a voxel, colours; several add up",
         "VALUE:P:C,...");
     app.add_flag("--shadows", arguments.picture.shadows, "Shadows in the volume rendering (with --volume)");
+    add("--optics", words.optics, "Volume rendering: absorption, emission, absorption-emission, single-scattering or multiple-scattering",
+        "MODEL");
+    add("--albedo", words.albedo, "Scattering: the part of the light that matter scatters, times its colour (1)", "A")
+        ->check(in_range(0.0, 1.0));
+    add("--asymmetry", words.asymmetry, "Scattering: mean cosine of the angle by which light turns (0: in all directions)", "G")
+        ->check(in_range(-0.99, 0.99));
+    add("--light", words.light, "Scattering: direction to the light: an axis or X,Y,Z; default: from above left of the camera", "AXIS");
+    add("--sky", words.sky, "Multiple scattering: light from all directions beside the directed one (0)", "L")
+        ->check(in_range(0.0, 1000.0));
     add("--sample-distance", arguments.picture.sample_distance,
         "Volume rendering: distance of the samples along a ray, in voxels (1): longer is faster, and misses what is thin", "D")
         ->check(in_range(0.05, 16.0));

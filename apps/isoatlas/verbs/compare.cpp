@@ -75,8 +75,10 @@ int run_compare(const Arguments& arguments, Terminal& terminal) {
     {
         const WritingGuard guard;
         if (!arguments.curve.empty()) write_output(arguments.curve, csv_of(found));
-        if (makes_page(arguments)) write_output(arguments.output, html_of(found, page));
-        else if (!arguments.output.empty()) write_image(arguments.output, sheet_of(page.pictures));
+        if (makes_page(arguments))
+            write_output(arguments.output, html_of(found, page));
+        else if (!arguments.output.empty())
+            write_image(arguments.output, sheet_of(page.pictures));
     }
     if (arguments.json) {
         print(terminal, json_of(found));

@@ -28,6 +28,21 @@ Json curves_json(const PictureArguments& picture) {
     return curves;
 }
 
+/// null: no volume rendering.
+Json optics_json(const PictureArguments& picture) {
+    if (!picture.volume) return nullptr;
+    Json json{{"model", optics_name(picture.optics)}};
+    const bool is_multiple = picture.optics == OpticalModel::multiple_scattering;
+    if (!is_multiple && picture.optics != OpticalModel::single_scattering) return json;
+    const Scattering& scattering = picture.scattering;
+    json["albedo"] = scattering.albedo;
+    json["asymmetry"] = scattering.asymmetry;
+    json["light"] = nullptr;
+    if (scattering.to_light != Vec3{}) json["light"] = scattering.to_light;
+    if (is_multiple) json["sky"] = scattering.sky;
+    return json;
+}
+
 Json to_json(const Arguments& arguments, Source& source, const Scene& scene, const Image& image, const Camera& camera) {
     Json json = document("render", source.info(), source.interpolant(), source.tunnel_height());
     json["output"] = arguments.output;
@@ -64,6 +79,7 @@ Json to_json(const Arguments& arguments, Source& source, const Scene& scene, con
     }
     json["materials"] = std::move(materials);
     json["curves"] = curves_json(arguments.picture);
+    json["optics"] = optics_json(arguments.picture);
     json["camera"] = nullptr;
     if (!arguments.picture.flat)
         json["camera"] = {{"projection", camera.projection == Projection::orthographic ? "orthographic" : "perspective"},

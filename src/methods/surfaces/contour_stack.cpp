@@ -86,7 +86,8 @@ bool overlap(const Contour& p, const Contour& q) {
         if (p.low[axis] > q.high[axis] || q.low[axis] > p.high[axis]) return false;
     }
     const auto lies_in = [](const Contour& one, const Contour& other) {
-        return std::ranges::any_of(one.corners, [&](const Vec3& corner) { return is_in_box(corner, other) && is_inside(corner, other.corners); });
+        return std::ranges::any_of(one.corners,
+                                   [&](const Vec3& corner) { return is_in_box(corner, other) && is_inside(corner, other.corners); });
     };
     return lies_in(p, q) || lies_in(q, p);
 }

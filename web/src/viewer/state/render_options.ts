@@ -2,7 +2,7 @@
 import type { Page } from "../../shared/page";
 import { AXES, AXIS_NAMES, Grid } from "./grid";
 import { pointsText, scaledBy, type Layer } from "./opacity_curve";
-import { hasUniformSpacing, VOLUME_CURVE, VOLUME_DENSITY } from "./volume_state";
+import { hasUniformSpacing, VOLUME_CURVE, VOLUME_DENSITY, VOLUME_OPTICS } from "./volume_state";
 import { CROSSHAIR, middleOf, PLANES } from "./slice_state";
 import type { State } from "./state";
 
@@ -13,12 +13,15 @@ export function renderOptions(page: Page, state: State, proposal: readonly Layer
   return [...slices, ...volumeOptions(page, state, proposal)];
 }
 
-/** An option for each visible layer; its opacities include the density. */
+/** An option for each visible layer, whose opacities include the density, and one for the optical model. */
 function volumeOptions(page: Page, state: State, proposal: readonly Layer[] | null): string[] {
   const factor = VOLUME_DENSITY.of(state);
   if (factor === null || !hasUniformSpacing(page)) return [];
   const layers = VOLUME_CURVE.of(state) ?? proposal;
-  if (layers === null) return ["--volume"];
+  const model = VOLUME_OPTICS.of(state);
+  const optics = model === VOLUME_OPTICS.initial ? [] : [`--optics ${model}`];
+  if (layers === null) return ["--volume", ...optics];
   const curve = ({ points }: Layer): string => pointsText(scaledBy(points, factor), (colour) => colour.toUpperCase());
-  return layers.filter(({ visible }) => visible).map((layer) => `--transfer='${curve(layer)}'`);
+  const curves = layers.filter(({ visible }) => visible).map((layer) => `--transfer='${curve(layer)}'`);
+  return curves.length === 0 ? [] : [...curves, ...optics];
 }

@@ -17,6 +17,17 @@ export const VOLUME_CURVE = new Part<readonly Layer[] | null>(
   layersIn,
 );
 
+const OPTICAL_MODELS = ["absorption-emission", "absorption", "emission", "single-scattering", "multiple-scattering"] as const;
+
+/** optical model in which `isoatlas render` draws the scene; the viewer itself always shows absorption and emission */
+export const VOLUME_OPTICS = new Part<(typeof OPTICAL_MODELS)[number]>(
+  "optics",
+  "optical model",
+  OPTICAL_MODELS[0],
+  (model) => model,
+  (text) => OPTICAL_MODELS.find((model) => model === text) ?? null,
+);
+
 /** Volume rendering needs even steps: rays go from sample to sample, here and in `isoatlas render --volume`. */
 export function hasUniformSpacing({ volume }: Pick<Page, "volume">): boolean {
   return volume.spacing !== null;
