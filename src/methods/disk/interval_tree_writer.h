@@ -9,38 +9,11 @@
 
 #include "base/big_vector.h"
 #include "base/cancel.h"
+#include "base/payload_spool.h"
 #include "methods/disk/entry_stream.h"
 #include "methods/disk/node_lists.h"
 
 namespace isoatlas {
-
-/// Payloads of nodes in their order. Not in memory where that is limited.
-class NodeSpool {
-public:
-    void add(const std::vector<std::byte>& payload) {
-        constexpr std::size_t kChunk = std::size_t{1} << 22;
-        if (chunks_.empty() || chunks_.back().size() + payload.size() > kChunk) {
-            chunks_.emplace_back().reserve(kChunk);
-            sizes_.emplace_back();
-        }
-        chunks_.back().insert(chunks_.back().end(), payload.begin(), payload.end());
-        sizes_.back().push_back(payload.size());
-        memory_.step(payload.size());
-    }
-    void write_to(BlockWriter& file) const {
-        for (std::size_t chunk = 0; chunk < chunks_.size(); ++chunk) {
-            std::size_t at = 0;
-            for (const std::size_t size : sizes_[chunk])
-                (void)file.add(std::span(chunks_[chunk]).subspan(std::exchange(at, at + size), size));
-            (void)check_memory();
-        }
-    }
-
-private:
-    std::vector<Array<std::byte>> chunks_;
-    std::vector<std::vector<std::size_t>> sizes_;
-    BudgetPoll memory_;
-};
 
 template <class Entry>
 class IntervalTreeWriter {
@@ -80,7 +53,7 @@ public:
         }
         stream_.flush();
         place.root = file_.blocks();
-        nodes_.write_to(file_);
+        nodes_.for_each([this](std::span<const std::byte> payload) { (void)file_.add(payload); });
         return place;
     }
 
@@ -188,7 +161,7 @@ private:
     int slabs_;
     EntryStream<Entry> stream_;
     std::int64_t last_node_ = 0;  ///< that has a number; the root is 0, and numbers are those of the order in which nodes are made
-    NodeSpool nodes_;
+    PayloadSpool nodes_;
 };
 
 }  // namespace isoatlas
