@@ -37,6 +37,34 @@ ComparedSearch interval_tree_file(std::int64_t kibibytes, bool is_usual) {
             build};
 }
 
+/// The time to build it has that of the trees and zones.
+ComparedSearch zone_files(ZoneLayout layout, bool is_usual) {
+    const bool is_by_path = layout == ZoneLayout::by_path;
+    const std::string name = is_by_path ? "zone-files" : "zone-files-by-zone";
+    const auto build = [layout, name](const Volume& volume, const std::string& folder, const Context& context) {
+        const std::string path = fmt::format("{}/{}", folder, name);
+        write_zone_files(path, volume, analyse(volume, {}, context), {.layout = layout}, context);
+        return std::make_unique<ZoneFileSearch>(path);
+    };
+    return {{.name = name,
+             .title = is_by_path ? "Zone files, a list for each heavy path" : "Zone files, a list for each zone component",
+             .section = "10, 11",
+             .source = "the dissertation",
+             .cost = is_by_path ? "paths + k / B, blocks of B cells" : "zones + cells of the active zones / B",
+             .is_usual = is_usual},
+            build};
+}
+
+/// The product. The time to build the store has that of the trees.
+ComparedSearch bricks() {
+    const auto build = [](const Volume& volume, const std::string& folder, const Context& context) {
+        const std::string path = folder + "/bricks.atlas";
+        build_atlas(path, volume, {}, context);
+        return std::make_unique<BrickSearch>(path);
+    };
+    return {{.name = "bricks", .title = "Bricks of a store", .source = "isoatlas", .cost = "n / 1024 + cells of the bricks divided"}, build};
+}
+
 ComparedExtractor surface_method(const SurfaceMethodInfo& info) {
     return {described(info), [method = info.method](const Volume& volume) { return make_extractor(method, volume); },
             info.method == SurfaceMethod::trilinear};
@@ -86,6 +114,9 @@ ComparedMethods all_methods() {
     for (const SearchMethodInfo& info : search_methods()) all.searches.push_back(in_memory(info));
     all.searches.push_back(interval_tree_file(4, true));
     all.searches.push_back(interval_tree_file(64, false));
+    all.searches.push_back(zone_files(ZoneLayout::by_path, true));
+    all.searches.push_back(zone_files(ZoneLayout::by_zone, false));
+    all.searches.push_back(bricks());
     return all;
 }
 

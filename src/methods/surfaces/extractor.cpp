@@ -20,7 +20,7 @@ constexpr std::array<SurfaceMethodInfo, 9> kMethods{{
     {SurfaceMethod::marching_cubes, "marching-cubes", "Marching Cubes of 1987", "3.2", "Lorensen, Cline, Marching Cubes, 1987", "n"},
     {SurfaceMethod::asymptotic_decider, "asymptotic-decider", "Asymptotic decider", "3.2", "Nielson, Hamann, The asymptotic decider, 1991",
      "n"},
-    {SurfaceMethod::marching_cubes_33, "marching-cubes-33", "Marching Cubes 33", "",
+    {SurfaceMethod::marching_cubes_33, "marching-cubes-33", "Marching Cubes 33", "3.2",
      "Chernyaev, Marching Cubes 33: construction of topologically correct isosurfaces, 1995", "n"},
     {SurfaceMethod::dividing_cubes, "dividing-cubes", "Dividing Cubes", "3.3",
      "Cline, Lorensen, Ludke, Crawford, Teeter, Two algorithms for the three-dimensional reconstruction of tomograms, 1988",
