@@ -218,7 +218,7 @@ class Pictures(CliTest):
 
     def test_a_store_reads_what_is_seen(self):
         self.run_ok("build", "shells.nrrd", "-o", "shells.atlas")
-        for wanted in (["--volume"], ["--volume", "--shadows", "--slice", "x=3"], ["--slice", "z=20", "--tau", "0.5"], ["--slice", "y=31", "--flat"]):
+        for wanted in (["--volume"], ["--volume", "--shadows", "--slice", "x=3"], ["--volume", "--optics", "multiple-scattering"], ["--slice", "z=20", "--tau", "0.5"], ["--slice", "y=31", "--flat"]):
             seen = []
             for name in ("shells.nrrd", "shells.atlas"):
                 document = self.run_json("render", name, *wanted, *self.small, "--view", "30,20", "-o", "s.png")

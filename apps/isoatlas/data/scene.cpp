@@ -212,7 +212,9 @@ RenderOptions options_of_picture(const PictureArguments& picture) {
     RenderOptions options{.width = picture.width, .height = picture.height};
     options.projection = picture.perspective ? Projection::perspective : Projection::orthographic;
     options.background = picture.background;
-    options.samples = picture.samples > 0 ? picture.samples : picture.volume ? 2 : 4;  // volume rendering has no edges
+    const bool is_noisy = picture.volume && picture.optics == OpticalModel::multiple_scattering;
+    const int usual = is_noisy ? 8 : picture.volume ? 2 : 4;  // volume rendering has no edges
+    options.samples = picture.samples > 0 ? picture.samples : usual;
     options.scale_bar = options.legend = !picture.plain;
     return options;
 }

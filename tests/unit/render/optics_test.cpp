@@ -253,6 +253,18 @@ TEST(Scatters, AHalfSpaceIsAsBrightAsChandrasekharSays) {
     }
 }
 
+TEST(Scatters, AHalfSpaceUnderTheSkyAbsorbsAsMuchAsItWouldEmit) {
+    // By the law of Kirchhoff, 1 - sqrt(1 - albedo) H(1) of a sky of 1 comes back.
+    const Volume volume = block(41, 41, 41);
+    constexpr int kPaths = 2000;
+    for (const double albedo : {0.5, 0.9}) {
+        Matter matter(volume, 1, OpticalModel::multiple_scattering, {.albedo = albedo, .light = 0, .sky = 1}, 0.5);
+        matter.colour({1, 1, 1});
+        const double bright = 1 - std::sqrt(1 - albedo) * chandrasekhar(1, albedo);
+        EXPECT_NEAR(matter.look({20, 20, -5}, {0, 0, 1}, kPaths).light[0] / bright, 1, 4 * 1.1 / std::sqrt(kPaths)) << albedo;
+    }
+}
+
 TEST(Scatters, TheErrorFallsWithTheRootOfThePaths) {
     const Volume volume = ball_volume(49);
     Matter matter(volume, 0.15, OpticalModel::multiple_scattering, {.albedo = 0.9, .to_light = {1, 0, -1}});
@@ -294,6 +306,16 @@ TEST(Scatters, SurfacesCastShadows) {
         EXPECT_LT(at(shaded, 20), 0.1 * at(open, 20));
         EXPECT_GT(at(shaded, 30), 0.9 * at(open, 30));
     }
+}
+
+TEST(Scatters, SurfacesHideTheSky) {
+    const Volume volume = block(21, 21, 21);
+    const Scattering scattering{.light = 0, .sky = 1};
+    Matter open(volume, 0.1, OpticalModel::multiple_scattering, scattering),
+        inside(volume, 0.1, OpticalModel::multiple_scattering, scattering);
+    inside.add({.surface = test::ball({10, 10, 10}, 60, 1), .colour = {0, 0, 0}});
+    EXPECT_GT(open.look({10, 10, -5}, {0, 0, 1}, 8).light[0], 0.3);
+    EXPECT_EQ(inside.look({10, 10, -5}, {0, 0, 1}, 8).light[0], 0);
 }
 
 TEST(Scatters, TheSameBytesForAnyThreads) {
