@@ -1,4 +1,5 @@
 #include "base/big_vector.h"
+#include "base/cancel.h"
 #include "base/streamed.h"
 #include "field/volume_view.h"
 #include "formats/volume/load_samples.h"
@@ -23,10 +24,12 @@ IntervalTreePlace place_of(const HeaderNumbers& numbers) {
 
 /// All that are active at some isovalue, in the order of their numbers.
 template <class T>
-Array<CellInterval<T>> all_intervals(const CellGrid<T>& grid) {
+Array<CellInterval<T>> all_intervals(const CellGrid<T>& grid, const Context& context) {
+    constexpr std::int64_t kBetweenLooks = 1 << 20;
     Array<CellInterval<T>> cells(static_cast<std::size_t>(grid.count()));
     std::size_t count = 0;
     for (const auto i : streamed<std::int64_t>(cells.size(), in_order(4))) {
+        if (i % kBetweenLooks == 0) stop_if_cancelled(context);
         const std::array<T, 2> ends = grid.interval(grid.place(CellId(i)));
         if (ends[0] < ends[1]) cells[count++] = {ends[0], ends[1], CellId(i)};
     }
@@ -42,7 +45,7 @@ void write_tree(const std::string& path, const VolumeView& volume, const Release
         const CellGrid<T> grid(volume.info->extent, samples);
         require_countable(grid.count(), volume.info->path);
         BlockWriter file(path, kMagic, options.block_bytes);
-        Array<CellInterval<T>> cells = all_intervals(grid);
+        Array<CellInterval<T>> cells = all_intervals(grid, context);
         release();
         const std::int64_t count = std::ssize(cells);
         IntervalTreeWriter<CellInterval<T>> writer(file);

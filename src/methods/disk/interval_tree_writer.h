@@ -9,11 +9,35 @@
 
 #include "base/big_vector.h"
 #include "base/cancel.h"
-#include "base/payload_spool.h"
 #include "methods/disk/entry_stream.h"
 #include "methods/disk/node_lists.h"
 
 namespace isoatlas {
+
+/// Payloads of nodes in their order. Not in memory where that is limited.
+class NodeSpool {
+public:
+    void add(const std::vector<std::byte>& payload) {
+        constexpr std::size_t kChunk = std::size_t{1} << 22;
+        if (chunks_.empty() || chunks_.back().size() + payload.size() > kChunk) {
+            chunks_.emplace_back().reserve(kChunk);
+            sizes_.emplace_back();
+        }
+        chunks_.back().insert(chunks_.back().end(), payload.begin(), payload.end());
+        sizes_.back().push_back(payload.size());
+    }
+    void write_to(BlockWriter& file) const {
+        for (const Block one : streamed_blocks(chunks_.size(), 1)) {
+            const std::span<const std::byte> chunk(chunks_[one.first]);
+            std::size_t at = 0;
+            for (const std::size_t size : sizes_[one.first]) (void)file.add(chunk.subspan(std::exchange(at, at + size), size));
+        }
+    }
+
+private:
+    std::vector<Array<std::byte>> chunks_;
+    std::vector<std::vector<std::size_t>> sizes_;
+};
 
 template <class Entry>
 class IntervalTreeWriter {
@@ -53,7 +77,7 @@ public:
         }
         stream_.flush();
         place.root = file_.blocks();
-        nodes_.for_each([this](std::span<const std::byte> payload) { (void)file_.add(payload); });
+        nodes_.write_to(file_);
         return place;
     }
 
@@ -161,7 +185,7 @@ private:
     int slabs_;
     EntryStream<Entry> stream_;
     std::int64_t last_node_ = 0;  ///< that has a number; the root is 0, and numbers are those of the order in which nodes are made
-    PayloadSpool nodes_;
+    NodeSpool nodes_;
 };
 
 }  // namespace isoatlas

@@ -116,6 +116,16 @@ TEST_F(DiskSearch, ReadsItsVolumeSlabBySlab) {
     EXPECT_TRUE(whole == std::string(std::istreambuf_iterator<char>(in), {}));
 }
 
+TEST_F(DiskSearch, IsNotThereWhenItWasCancelled) {
+    const isoatlas::Volume volume = isoatlas::make_phantom("noise", {.size = 12});
+    for (const int looks : {0, 1, 2}) {
+        isoatlas::Context context;
+        context.cancelled = [left = looks]() mutable { return left-- == 0; };
+        EXPECT_THROW(isoatlas::write_interval_tree(path_, volume, {.block_bytes = 512}, context), isoatlas::Error);
+        EXPECT_FALSE(std::filesystem::exists(path_));
+    }
+}
+
 /// Entries of several trees in one file, some of them lists, some empty: each tree has its own.
 RC_GTEST_FIXTURE_PROP(DiskSearch, KeepsSeveralTreesInAFile, ()) {
     using Cell = isoatlas::CellInterval<float>;
