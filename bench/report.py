@@ -188,13 +188,13 @@ def parts_of(text):
 
 
 def replace(page, mark, text):
-    """The table between these marks, of the same kind of processor, or a new one."""
+    """The table between these marks, of the same kind of processor, or a new one; all of them by one that names none."""
     pattern = re.compile(rf"(<!-- {mark}:begin -->\n)(.*?)(<!-- {mark}:end -->)", re.S)
     found = pattern.search(page)
     if not found:
         sys.exit(f"report: the page has no marks for '{mark}'")
     parts = parts_of(found[2]) | parts_of(text)
-    joined = "\n\n".join(parts[name] for name in sorted(parts, key=ORDER.index))
+    joined = "\n\n".join(parts[name] for name in sorted(parts, key=ORDER.index)) if parts_of(text) else text
     return page[:found.start()] + found[1] + joined + "\n" + found[3] + page[found.end():]
 
 
@@ -219,6 +219,7 @@ def self_test():
     for text, parts in ((wide, [wide]), (avx2, [avx2, wide]), (narrowed, [narrowed, wide])):
         page = replace(page, "t", text)
         assert page == "x\n<!-- t:begin -->\n" + "\n\n".join(parts) + "\n<!-- t:end -->\ny\n", page
+    assert replace(page, "t", "| c |") == "x\n<!-- t:begin -->\n| c |\n<!-- t:end -->\ny\n"  # table131.py
     assert abs(slope([8, 64, 512], [2, 4, 8]) - 1 / 3) < 1e-9 and slope([8], [2]) is None
     records = [{"field": "smooth", "size": n, "voxels": n**3, "seconds": {"": {"1": n**3, "2": n**4}}, "bytes": {}, "more": {}} for n in (2, 4)]
     assert scale_table({"records": records}).endswith("| smooth: slope | 1.00 | **1.33** |  |")
