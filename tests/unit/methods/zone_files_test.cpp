@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <set>
@@ -323,6 +324,29 @@ TEST_F(ZoneFileBytes, AreRefusedWhenDamaged) {
     EXPECT_FALSE(opens(bad));
     EXPECT_TRUE(opens(good));
     EXPECT_TRUE(refuses(good));
+}
+
+TEST_F(ZoneFileBytes, AreComparedWithBricks) {
+    const Volume volume = isoatlas::make_phantom("random-field", {.size = 20});
+    const Analysis analysis = isoatlas::analyse(volume);
+    const std::string path = path_ + ".zones";
+    isoatlas::build_atlas(path_, volume);
+    isoatlas::write_zone_files(path, volume, analysis);
+    ZoneFileSearch file(path);
+    const std::vector<isoatlas::SearchCost> all = isoatlas::search_costs(volume, analysis);
+    const std::vector<ZoneFileRow> rows = isoatlas::zone_file_table(file, volume, analysis, 5, path_);
+    ASSERT_EQ(rows.size(), 5U);
+    EXPECT_EQ(rows.front().counted.tau, all.front().tau);
+    EXPECT_EQ(rows.back().counted.tau, all.back().tau);
+    for (const ZoneFileRow& row : rows) {
+        EXPECT_GT(row.cost.active, 0);
+        EXPECT_GT(row.brick_bytes, 0);
+        EXPECT_EQ(row.load_utility(), 100 * static_cast<double>(row.cost.active) / static_cast<double>(row.reads.cells_loaded));
+        EXPECT_GE(row.travel_utility(), row.load_utility());
+        EXPECT_LE(row.travel_utility(), 100);
+    }
+    EXPECT_THROW((void)isoatlas::zone_file_table(file, volume, analysis, 0), isoatlas::Error);
+    std::filesystem::remove(path);
 }
 
 }  // namespace
