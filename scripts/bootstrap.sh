@@ -57,6 +57,8 @@ test|clang-19|a second compiler: the command line without a warning
 test|mold|links the many test programs
 bench|python3-vtk9|Flying Edges, the yardstick of surface extraction
 bench|python3-numpy|reads the volumes for VTK
+bench|python3-skimage|Marching Cubes of Lewiner and Lorensen, beside the methods of the literature
+bench|python3-scipy|components of their surfaces
 bench|xvfb|a display for VTK's ray caster, the yardstick of volume rendering
 bench|xauth|lets VTK at that display
 package|dpkg-dev|finds what a Debian package depends on

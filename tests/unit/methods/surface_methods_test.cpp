@@ -85,6 +85,18 @@ TEST(SurfaceMethods, TetrahedraSeeAnotherObjectInAMirror) {
     EXPECT_EQ(components(SurfaceMethod::trilinear, values), components(SurfaceMethod::trilinear, mirrored));
 }
 
+/// Two Highs at the ends of a diagonal of a face, which the tetrahedra of one cell have as an edge and those of the next one do not.
+TEST(SurfaceMethods, FiveTetrahedraSeeAnotherObjectOneSampleFurther) {
+    const auto components = [](SurfaceMethod method, std::size_t shift) {
+        std::vector<double> values(5 * 4 * 4, 0.0);
+        for (const std::size_t i : {0, 1}) values[1 + i + shift + 5 * (1 + i + 4 * 1)] = 1;
+        return report_of(extract_by(method, isoatlas::make_volume<double>({3, {5, 4, 4}}, values), 0.6)).component_chi.size();
+    };
+    EXPECT_EQ(components(SurfaceMethod::five_tetrahedra, 0), 1U);
+    EXPECT_EQ(components(SurfaceMethod::five_tetrahedra, 1), 2U);
+    for (const std::size_t shift : {0, 1}) EXPECT_EQ(components(SurfaceMethod::asymptotic_decider, shift), 2U);
+}
+
 RC_GTEST_PROP(SurfaceMethodsOf, AnyVolumeCountWhatTheyLookAt, ()) {
     Grid grid = *arbitrary_grid(4, 40);
     grid.rank = 3;
