@@ -50,11 +50,11 @@ bool mark(const Surface& surface, const SurfaceDefects& defects, double radius, 
 }
 
 /// Its sides are those of the small cubes: points of one cell are that far from each other.
-Surface tiles_of(const PointCloud& cloud, double side) {
+Surface tiles_of(const PointCloud& cloud, const Vec3& sides) {
     Shapes tiles;
     for (std::int64_t i = 0; i < std::ssize(cloud.points); ++i) {
         const auto& normal = cloud.normals[i];
-        tiles.add_tile(cloud.points[i], {normal[0], normal[1], normal[2]}, side);
+        tiles.add_tile(cloud.points[i], {normal[0], normal[1], normal[2]}, sides);
     }
     return std::move(tiles.surface());
 }
@@ -97,8 +97,9 @@ void SurfacePictures::add(const ExtractedSurface& one, const SurfaceInHand& made
     if (is_empty_) return;
     Scene scene;
     if (one.is_points) {
-        const double side = kOverlap * std::ranges::max(volume_.info.geometry.spacing) / one.method.divisions;
-        scene.objects.push_back({.surface = tiles_of(made.result.points, side), .colour = palette(0)});
+        Vec3 sides = volume_.info.geometry.spacing;
+        for (double& side : sides) side *= kOverlap / one.method.divisions;
+        scene.objects.push_back({.surface = tiles_of(made.result.points, sides), .colour = palette(0)});
         draw(one.method, std::move(scene), true);
         return;
     }

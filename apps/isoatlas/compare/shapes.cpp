@@ -67,11 +67,15 @@ void Shapes::add_ball(const Vec3& middle, double radius) {
     }
 }
 
-void Shapes::add_tile(const Vec3& middle, const Vec3& normal, double side) {
+void Shapes::add_tile(const Vec3& middle, const Vec3& normal, const Vec3& sides) {
     const auto [right, up] = across(normal);
+    const auto half = [&sides](const Vec3& direction) {
+        return length({direction[0] * sides[0], direction[1] * sides[1], direction[2] * sides[2]}) / 2;
+    };
+    const double half_width = half(right), half_height = half(up);
     const std::int64_t first = std::ssize(surface_.points);
     for (const auto& [x, y] : {std::array{-1, -1}, std::array{1, -1}, std::array{1, 1}, std::array{-1, 1}}) {
-        surface_.points.push_back(along(along(middle, x * side / 2, right), y * side / 2, up));
+        surface_.points.push_back(along(along(middle, x * half_width, right), y * half_height, up));
         surface_.normals.push_back({static_cast<float>(normal[0]), static_cast<float>(normal[1]), static_cast<float>(normal[2])});
     }
     surface_.triangles.push_back({first, first + 1, first + 2});

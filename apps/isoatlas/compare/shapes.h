@@ -12,8 +12,8 @@ public:
     void add_rod(const Vec3& from, const Vec3& to, double radius);
     /// An octahedron.
     void add_ball(const Vec3& middle, double radius);
-    /// A square that faces along the normal, with that normal. side: physical.
-    void add_tile(const Vec3& middle, const Vec3& normal, double side);
+    /// A rectangle that faces along the normal, with that normal, as wide along each direction as a box of these sides, about. Physical.
+    void add_tile(const Vec3& middle, const Vec3& normal, const Vec3& sides);
     [[nodiscard]] Surface& surface() { return surface_; }
 
 private:
