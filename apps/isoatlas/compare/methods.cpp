@@ -62,7 +62,8 @@ ComparedSearch bricks() {
         build_atlas(path, volume, {}, context);
         return std::make_unique<BrickSearch>(path);
     };
-    return {{.name = "bricks", .title = "Bricks of a store", .source = "isoatlas", .cost = "n / 1024 + cells of the bricks divided"}, build};
+    return {{.name = "bricks", .title = "Bricks of a store", .source = "isoatlas", .cost = "n / 1024 + cells of the bricks divided"},
+            build};
 }
 
 ComparedExtractor surface_method(const SurfaceMethodInfo& info) {
