@@ -19,6 +19,11 @@ double distance_to_segment(const Vec3& point, const Vec3& from, const Vec3& to) 
 
 }  // namespace
 
+double area_of(const Corners3& triangle) {
+    const Vec3 normal = cross(minus(triangle[1], triangle[0]), minus(triangle[2], triangle[0]));
+    return std::hypot(normal[0], normal[1], normal[2]) / 2;
+}
+
 double distance_to_triangle(const Vec3& point, const Corners3& triangle) {
     const Vec3 normal = cross(minus(triangle[1], triangle[0]), minus(triangle[2], triangle[0]));
     const double size = std::sqrt(dot(normal, normal));

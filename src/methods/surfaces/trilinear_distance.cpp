@@ -66,15 +66,6 @@ Vec3 mean_of(std::initializer_list<Vec3> points) {
     return sum;
 }
 
-double area_of(const Corners3& t) {
-    Vec3 normal;
-    for (std::size_t i = 0; i < 3; ++i) {
-        const std::size_t j = (i + 1) % 3, k = (i + 2) % 3;
-        normal[i] = (t[1][j] - t[0][j]) * (t[2][k] - t[0][k]) - (t[1][k] - t[0][k]) * (t[2][j] - t[0][j]);
-    }
-    return std::hypot(normal[0], normal[1], normal[2]) / 2;
-}
-
 /// The rule that is exact for cubic functions on a triangle.
 template <class Distance>
 Sums of_triangle(const Corners3& t, const Distance& distance) {

@@ -1,22 +1,14 @@
 #include "methods/surfaces/tube.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
+
+#include "methods/surfaces/triangle_index.h"
 
 namespace isoatlas {
 namespace {
 
 constexpr double kNever = std::numeric_limits<double>::infinity();
-
-double area_of(const Vec3& p, const Vec3& q, const Vec3& r) {
-    Vec3 normal;
-    for (std::size_t i = 0; i < 3; ++i) {
-        const std::size_t j = (i + 1) % 3, k = (i + 2) % 3;
-        normal[i] = (q[j] - p[j]) * (r[k] - p[k]) - (q[k] - p[k]) * (r[j] - p[j]);
-    }
-    return std::hypot(normal[0], normal[1], normal[2]) / 2;
-}
 
 /// Strips between two polygons that run the same way round, from the chord between a corner of one and a corner of the other back to it.
 /// They begin with an edge of one and end with an edge of the other, as every strip does somewhere. Then no chord comes twice, unless all
@@ -29,14 +21,14 @@ public:
     /// Area of the smallest one, and its triangles.
     double smallest(std::size_t from_one, std::size_t from_other, std::vector<HitTriangle>& triangles) {
         const std::size_t m = one_.size(), n = other_.size();
-        std::array<std::array<double, 13>, 13> area{};  // of the smallest way to chord (i, j)
+        std::array<std::array<double, 13>, 13> sum{};  // of the smallest way to chord (i, j)
         for (std::size_t i = 0; i <= m; ++i) {
             for (std::size_t j = 0; j <= n; ++j) {
                 if (i + j == 0) continue;
-                const double by_one = i == 0 ? kNever : area[i - 1][j] + area_of(on_one(from_one + i - 1, from_other + j));
-                const double by_other = j == 0 ? kNever : area[i][j - 1] + area_of(on_other(from_one + i, from_other + j - 1));
+                const double by_one = i == 0 ? kNever : sum[i - 1][j] + area(on_one(from_one + i - 1, from_other + j));
+                const double by_other = j == 0 ? kNever : sum[i][j - 1] + area(on_other(from_one + i, from_other + j - 1));
                 const bool is_out = (i == 0 && j > 0) || (i < m && j == n) || (i == m && j == 0);
-                area[i][j] = is_out ? kNever : std::min(by_one, by_other);
+                sum[i][j] = is_out ? kNever : std::min(by_one, by_other);
                 is_on_one_[i][j] = by_one <= by_other;
             }
         }
@@ -46,7 +38,7 @@ public:
             --(is_on_one ? i : j);
             triangles.push_back(is_on_one ? on_one(from_one + i, from_other + j) : on_other(from_one + i, from_other + j));
         }
-        return area[m][n];
+        return sum[m][n];
     }
 
 private:
@@ -55,7 +47,7 @@ private:
     /// On the edge behind corner i or j.
     [[nodiscard]] HitTriangle on_one(std::size_t i, std::size_t j) const { return {one(i), one(i + 1), other(j)}; }
     [[nodiscard]] HitTriangle on_other(std::size_t i, std::size_t j) const { return {other(j + 1), other(j), one(i)}; }
-    [[nodiscard]] double area_of(const HitTriangle& hits) const { return isoatlas::area_of(at_[hits[0]], at_[hits[1]], at_[hits[2]]); }
+    [[nodiscard]] double area(const HitTriangle& hits) const { return area_of(Corners3{at_[hits[0]], at_[hits[1]], at_[hits[2]]}); }
 
     std::span<const std::uint8_t> one_;
     std::vector<std::uint8_t> other_;
