@@ -30,6 +30,8 @@ public:
         if (context_.cancelled()) throw Error(ErrorKind::cancelled, {.what = "cancelled"});
         return context_;
     }
+    /// What follows belongs to the method before.
+    [[nodiscard]] const Context& same() const { return context_; }
 
 private:
     void tell() const {
@@ -228,6 +230,8 @@ std::vector<ExtractedSurface> run_staged(const Volume& volume, double tau, const
         made.defects = find_defects(made.result.surface, volume.info);
         made.difference = compare_components(made.result.surface, reference.result.surface, volume.info);
         all.push_back(measured(method, took, made));
+        all.back().to_trilinear = distance_to_trilinear(made.result, volume, tau, {}, stages.same());
+        all.back().from_trilinear = distance_from_trilinear(made.result, volume, tau, {}, stages.same());
         if (look) look(all.back(), made);
     };
     add(methods.back(), seconds, reference);

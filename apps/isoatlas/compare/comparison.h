@@ -27,6 +27,7 @@ struct ExtractedSurface {
     // Of points, all zero:
     std::int64_t components = 0, wrong_components = 0, euler = 0;
     std::int64_t hole_edges = 0, non_manifold_edges = 0, zero_area_triangles = 0;
+    SurfaceDistance to_trilinear{}, from_trilinear{};  ///< no samples: there was nothing to measure
 };
 /// Is shown each surface; the reference first.
 using LookAtSurface = std::function<void(const ExtractedSurface&, const SurfaceInHand&)>;

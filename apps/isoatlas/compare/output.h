@@ -43,6 +43,8 @@ struct Growth {
 
 /// "12.3": in three digits.
 [[nodiscard]] std::string milliseconds(double seconds);
+/// "0.0123"; "-" where nothing was measured.
+[[nodiscard]] std::string distance_text(const SurfaceDistance& distance, double voxels);
 /// "1.4 GB"
 [[nodiscard]] std::string size_text(std::int64_t bytes);
 

@@ -101,7 +101,10 @@ std::string surfaces_html(const Comparison& found) {
                                                                  {"Euler number"},
                                                                  {"edges of holes"},
                                                                  {"non-manifold edges"},
-                                                                 {"zero-area triangles"}});
+                                                                 {"zero-area triangles"},
+                                                                 {"mean distance"},
+                                                                 {"largest distance"},
+                                                                 {"largest back"}});
     for (const ExtractedSurface& one : found.surfaces) {
         table.begin(linked_title(one.method));
         for (const std::string& cell :
@@ -110,14 +113,17 @@ std::string surfaces_html(const Comparison& found) {
             table.add(cell);
         if (one.is_points) {
             for (int i = 0; i < 6; ++i) table.add("–");
-            continue;
+        } else {
+            table.add(count_text(one.components)), table.add_defects(one.wrong_components), table.add(count_text(one.euler));
+            for (const std::int64_t count : {one.hole_edges, one.non_manifold_edges, one.zero_area_triangles}) table.add_defects(count);
         }
-        table.add(count_text(one.components)), table.add_defects(one.wrong_components), table.add(count_text(one.euler));
-        for (const std::int64_t count : {one.hole_edges, one.non_manifold_edges, one.zero_area_triangles}) table.add_defects(count);
+        table.add(distance_text(one.to_trilinear, one.to_trilinear.mean)), table.add(distance_text(one.to_trilinear, one.to_trilinear.max));
+        table.add(distance_text(one.from_trilinear, one.from_trilinear.max));
     }
     return "<section class=\"panel\">\n<h2>Surfaces in numbers</h2>\n" + table.html() +
            "<p class=\"note\">A wrong component crosses other edges of the grid than any component of the trilinear surface, the last "
-           "line. The memory beside it is what a method holds beside samples and surface.</p>\n</section>\n";
+           "line. The memory beside it is what a method holds beside samples and surface. Distances are in voxels: of what a method "
+           "made to the trilinear level set, and back, which shows what is missing.</p>\n</section>\n";
 }
 
 std::string searches_html(const Comparison& found) {

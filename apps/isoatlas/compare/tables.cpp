@@ -10,6 +10,11 @@ Json json_of(const ComparedMethod& method) {
     return {{"name", method.name}, {"title", method.title}, {"section", method.section}, {"source", method.source}, {"cost", method.cost}};
 }
 
+Json json_of(const SurfaceDistance& distance) {
+    if (distance.samples == 0) return nullptr;
+    return {{"mean", distance.mean}, {"rms", distance.rms}, {"max", distance.max}, {"samples", distance.samples}};
+}
+
 Json json_of(const ExtractedSurface& one) {
     Json json = json_of(one.method);
     json["seconds"] = one.seconds;
@@ -26,6 +31,8 @@ Json json_of(const ExtractedSurface& one) {
     json["hole_edges"] = of_surface(one.hole_edges);
     json["non_manifold_edges"] = of_surface(one.non_manifold_edges);
     json["zero_area_triangles"] = of_surface(one.zero_area_triangles);
+    json["to_trilinear"] = json_of(one.to_trilinear);
+    json["from_trilinear"] = json_of(one.from_trilinear);
     return json;
 }
 
@@ -85,10 +92,12 @@ Json sizes_of(const Comparison& found) {
 /// Of a study; the names of methods have no commas.
 std::string csv_line(const char* table, const SearchRun& one, double tau, std::int64_t cells, std::int64_t active,
                      const SearchQuery& query) {
-    if (one.missing_memory > 0) return fmt::format("{},{},{},{},{},,,,,,,,,,,,,,,\n", table, one.method.name, tau, cells, active);
-    return fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},,,,,,,\n", table, one.method.name, tau, cells, active, one.build_seconds,
-                       query.seconds, query.cost.cells, query.cost.nodes, query.cost.blocks, query.cost.bytes_read, one.bytes,
-                       one.file_bytes);
+    constexpr std::size_t kOfQuery = 8, kOfSurface = 12;  // columns behind the first five
+    std::string line = fmt::format("{},{},{},{},{}", table, one.method.name, tau, cells, active);
+    if (one.missing_memory > 0) return line + std::string(kOfQuery + kOfSurface, ',') + '\n';
+    line += fmt::format(",{},{},{},{},{},{},{},{}", one.build_seconds, query.seconds, query.cost.cells, query.cost.nodes, query.cost.blocks,
+                        query.cost.bytes_read, one.bytes, one.file_bytes);
+    return line + std::string(kOfSurface, ',') + '\n';
 }
 
 }  // namespace
@@ -115,14 +124,18 @@ std::string csv_of(const Comparison& found) {
     std::string csv =
         "table,method,tau,cells,active_cells,build_seconds,seconds,cells_looked_at,nodes,blocks,bytes_read,bytes,file_bytes,points,"
         "triangles,"
-        "components,wrong_components,euler,hole_edges,non_manifold_edges,zero_area_triangles\n";
+        "components,wrong_components,euler,hole_edges,non_manifold_edges,zero_area_triangles,"
+        "to_trilinear_mean,to_trilinear_max,from_trilinear_mean,from_trilinear_max\n";
     const auto reported = [&](double tau) { return found.info.calibration.reported(tau); };
     for (const ExtractedSurface& one : found.surfaces) {
         csv += fmt::format("surface,{},{},{},{},,{},{},,,,{},,{},", one.method.name, reported(found.tau), found.cells, one.cost.active,
                            one.seconds, one.cost.cells, one.bytes, one.points);
-        csv += one.is_points ? ",,,,,,\n"
-                             : fmt::format("{},{},{},{},{},{},{}\n", one.triangles, one.components, one.wrong_components, one.euler,
+        csv += one.is_points ? ",,,,,,"
+                             : fmt::format("{},{},{},{},{},{},{}", one.triangles, one.components, one.wrong_components, one.euler,
                                            one.hole_edges, one.non_manifold_edges, one.zero_area_triangles);
+        for (const SurfaceDistance* distance : {&one.to_trilinear, &one.from_trilinear})
+            csv += distance->samples == 0 ? std::string(",,") : fmt::format(",{},{}", distance->mean, distance->max);
+        csv += '\n';
     }
     for (const SearchRun& one : found.searches) csv += csv_line("search", one, reported(found.tau), found.cells, found.active, one.query);
     for (const SearchRun& one : found.searches) {
