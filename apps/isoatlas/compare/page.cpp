@@ -54,7 +54,7 @@ std::string figure_html(const MethodPicture& picture, const Comparison& found, b
     const std::string title = is_method ? html_text(one->method.title) : "Ray casting";
     std::string size, faults;
     if (!is_method) {
-        size = "the trilinear function itself, without triangles";
+        size = "the trilinear function, looked at 20 times a voxel";
     } else {
         size = one->is_points ? counted(one->points, "point") : counted(one->triangles, "triangle");
         faults = one->is_points ? "" : faults_text(*one);

@@ -116,16 +116,16 @@ void SurfacePictures::add(const ExtractedSurface& one, const SurfaceInHand& made
 
 void SurfacePictures::add_ray_casting() {
     if (is_empty_) return;
-    constexpr double kOpaque = 0.9999;
+    constexpr double kOpaque = 0.9999, kStep = 0.05;  // of a voxel: sheets that are thinner are missed
     const Vec3& spacing = volume_.info.geometry.spacing;
-    const double step = std::min({spacing[0], spacing[1], spacing[2]});
+    const double extinction = extinction_of(kOpaque, kStep * std::min({spacing[0], spacing[1], spacing[2]}));
     const double high =
-        std::max(tau_ + 1, visit_samples(volume_, [](auto samples) { return static_cast<double>(std::ranges::max(samples)); }));
+        visit_samples(volume_, [](auto samples) { return static_cast<double>(*std::max_element(samples.begin(), samples.end())); });
     Scene scene;
     scene.volume.volume = &volume_;
     scene.volume.curves.push_back(
-        {.points = {{tau_, 0}, {tau_, extinction_of(kOpaque, step / 8)}, {high, extinction_of(kOpaque, step / 8)}}, .colour = palette(0)});
-    scene.volume.sample_distance = 0.1;
+        {.points = {{tau_, 0}, {tau_, extinction}, {std::max(tau_ + 1, high), extinction}}, .colour = palette(0)});
+    scene.volume.sample_distance = kStep;
     draw({.title = "Ray casting"}, std::move(scene), true);
 }
 
