@@ -12,7 +12,7 @@
 
 namespace isoatlas {
 
-/// An open store (isoatlas/atlas.h). Nothing stays between queries, so all of them read as a first one. Counters: nodes are bricks whose
+/// An open store (isoatlas/atlas.h); of one polarity as it is, of both that of high values. Nothing stays between queries, so all of them read as a first one. Counters: nodes are bricks whose
 /// lowest and highest sample are looked at, blocks are bricks read, cells are those whose first corner lies in such a brick.
 class BrickSearch final : public CellSearch {
 public:
@@ -25,6 +25,7 @@ public:
     /// Lowest and highest sample of every brick.
     [[nodiscard]] std::int64_t bytes() const override;
     [[nodiscard]] std::int64_t file_bytes() const override;
+    void drop_pages() override;
 
 private:
     struct Data;

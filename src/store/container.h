@@ -60,6 +60,8 @@ public:
 
     /// Non-blocking read_unchecked(); false: the bytes are not in memory.
     [[nodiscard]] bool read_if_present(const StoredArray& array, std::int64_t first, std::span<std::byte> out) const;
+    /// Pages of the file need not stay in memory.
+    void drop_pages() const { file_->drop_pages(); }
     /// Prefetches bytes of an array.
     void prefetch(const StoredArray& array, std::int64_t first, std::int64_t bytes) const { file_->prefetch(array.offset + first, bytes); }
 

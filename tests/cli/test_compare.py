@@ -69,6 +69,7 @@ class Compare(harness.CliTest):
             for method in found["searches"]:
                 self.assertGreaterEqual(method["cells"], found["active_cells"], method["name"])
                 self.assertEqual(method["blocks"] > 0, method["file_bytes"] > 0, method["name"])
+                self.assertEqual(method["cold_seconds"] is not None, method["file_bytes"] > 0, method["name"])
             holes = {surface["name"]: surface["hole_edges"] for surface in found["surfaces"] if not surface["makes_points"]}
             self.assertGreater(holes.pop("marching-cubes"), 0)
             self.assertGreater(holes.pop("connected-contours"), 0)
@@ -140,8 +141,16 @@ class Compare(harness.CliTest):
             self.assertEqual(shown[7:13], [count(name) for name in ("components", "wrong_components", "euler", "hole_edges", "non_manifold_edges", "zero_area_triangles")])
         for each in before["searches"]:
             shown = [cell.replace(",", "") for cell in searches[each["title"]]]
-            self.assertEqual(shown[5:7], [str(each["cells"]), str(each["nodes"])])
+            self.assertEqual(shown[6:8], [str(each["cells"]), str(each["nodes"])])
         self.assertEqual(page.alternatives[0].split(":")[0], "Ray casting")
+        volume = self.run_json("compare", name, "--tau", "0.5", "--methods", "trilinear", "-o", "compare.html")
+        self.assertEqual([each["name"] for each in volume["optical_models"]],
+                         ["absorption", "emission", "absorption-emission", "single-scattering", "multiple-scattering"])
+        self.assertEqual([each["name"] for each in volume["projections"]], ["ray-casting", "splatting", "shear-warp"])
+        self.assertLess(volume["projections"][0]["rms_error"], volume["projections"][2]["rms_error"])
+        self.assertEqual(before["optical_models"] + before["projections"], [])
+        projected = page.tables["Image order and object order: absorption and emission against the integral"]
+        self.assertEqual([row[0] for row in projected[1:]], [each["title"] for each in volume["projections"]])
         self.assertIn("3.8.5", text)
         self.assertTrue(all(row[0] in searches for row in page.tables["query, ms over active cells, k"][1:]))
 

@@ -42,6 +42,7 @@ struct SearchRun {
     double build_seconds = 0;
     std::int64_t bytes = 0, file_bytes = 0;
     SearchQuery query{};                     ///< at the isovalue
+    std::optional<double> cold_seconds{};    ///< of a file: of the same query before, when no page of the file was in memory
     std::vector<SearchQuery> at_isovalue{};  ///< then, at those of the study
     std::int64_t missing_memory = 0;         ///< not 0: it did not run, as it would have needed about so many bytes
 };

@@ -6,6 +6,7 @@
 
 #include "compare/comparison.h"
 #include "compare/pictures.h"
+#include "compare/volume_pictures.h"
 #include "text/document.h"
 
 namespace isoatlas::cli {
@@ -14,13 +15,14 @@ class Terminal;
 
 void print_text(Terminal& terminal, const Comparison& found);
 /// docs/schema/compare.schema.json
-[[nodiscard]] Json json_of(const Comparison& found);
+[[nodiscard]] Json json_of(const Comparison& found, const VolumePictures& volume);
 /// A line for each surface and each query; what does not apply is empty.
 [[nodiscard]] std::string csv_of(const Comparison& found);
 
 /// What a page needs beside the numbers.
 struct ComparePage {
     std::vector<MethodPicture> pictures{};
+    VolumePictures volume{};
     std::optional<SampleBox> pictured{};  ///< none: the whole volume
     std::string command{};                ///< that makes the page
 };

@@ -37,6 +37,8 @@ public:
     void add(const ExtractedSurface& one, const SurfaceInHand& made);
     /// The first crossing of each ray with the isosurface of the trilinear function, without triangles.
     void add_ray_casting();
+    /// None before there is a surface.
+    [[nodiscard]] const Camera* camera() const { return has_camera_ && !is_empty_ ? &camera_ : nullptr; }
     /// In the order in which they were added.
     [[nodiscard]] const std::vector<MethodPicture>& pictures() const { return pictures_; }
 

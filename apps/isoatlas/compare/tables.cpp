@@ -47,6 +47,7 @@ void add_query(Json& json, const SearchQuery& query) {
 void add_run(Json& json, const SearchRun& one) {
     json["missing_memory"] = one.missing_memory > 0 ? Json(one.missing_memory) : Json(nullptr);
     json["build_seconds"] = one.build_seconds;
+    json["cold_seconds"] = one.cold_seconds ? Json(*one.cold_seconds) : Json(nullptr);
     add_query(json, one.query);
     json["bytes"] = one.bytes;
     json["file_bytes"] = one.file_bytes;
@@ -92,17 +93,18 @@ Json sizes_of(const Comparison& found) {
 /// Of a study; the names of methods have no commas.
 std::string csv_line(const char* table, const SearchRun& one, double tau, std::int64_t cells, std::int64_t active,
                      const SearchQuery& query) {
-    constexpr std::size_t kOfQuery = 8, kOfSurface = 12;  // columns behind the first five
+    constexpr std::size_t kOfQuery = 9, kOfSurface = 12;  // columns behind the first five
     std::string line = fmt::format("{},{},{},{},{}", table, one.method.name, tau, cells, active);
     if (one.missing_memory > 0) return line + std::string(kOfQuery + kOfSurface, ',') + '\n';
-    line += fmt::format(",{},{},{},{},{},{},{},{}", one.build_seconds, query.seconds, query.cost.cells, query.cost.nodes, query.cost.blocks,
+    const bool is_cold_too = one.cold_seconds && &query == &one.query;
+    line += fmt::format(",{},{},{},{},{},{},{},{},{}", one.build_seconds, query.seconds, is_cold_too ? fmt::format("{}", *one.cold_seconds) : "", query.cost.cells, query.cost.nodes, query.cost.blocks,
                         query.cost.bytes_read, one.bytes, one.file_bytes);
     return line + std::string(kOfSurface, ',') + '\n';
 }
 
 }  // namespace
 
-Json json_of(const Comparison& found) {
+Json json_of(const Comparison& found, const VolumePictures& volume) {
     Json json = document("compare", found.info);
     json["tau"] = number(found.info.calibration.reported(found.tau));
     json["cells"] = found.cells;
@@ -117,18 +119,30 @@ Json json_of(const Comparison& found) {
     }
     json["isovalues"] = isovalues_of(found);
     json["sizes"] = sizes_of(found);
+    json["optical_models"] = Json::array();
+    for (const ModelPicture& one : volume.models)
+        json["optical_models"].push_back({{"name", one.name}, {"title", one.title}, {"seconds", one.seconds}});
+    json["projections"] = Json::array();
+    for (const ProjectionPicture& one : volume.projections)
+        json["projections"].push_back({{"name", one.name},
+                                       {"title", one.title},
+                                       {"source", one.source},
+                                       {"seconds", one.seconds},
+                                       {"samples", one.samples},
+                                       {"rms_error", one.error.root_mean_square},
+                                       {"largest_error", one.error.largest}});
     return json;
 }
 
 std::string csv_of(const Comparison& found) {
     std::string csv =
-        "table,method,tau,cells,active_cells,build_seconds,seconds,cells_looked_at,nodes,blocks,bytes_read,bytes,file_bytes,points,"
+        "table,method,tau,cells,active_cells,build_seconds,seconds,cold_seconds,cells_looked_at,nodes,blocks,bytes_read,bytes,file_bytes,points,"
         "triangles,"
         "components,wrong_components,euler,hole_edges,non_manifold_edges,zero_area_triangles,"
         "to_trilinear_mean,to_trilinear_max,from_trilinear_mean,from_trilinear_max\n";
     const auto reported = [&](double tau) { return found.info.calibration.reported(tau); };
     for (const ExtractedSurface& one : found.surfaces) {
-        csv += fmt::format("surface,{},{},{},{},,{},{},,,,{},,{},", one.method.name, reported(found.tau), found.cells, one.cost.active,
+        csv += fmt::format("surface,{},{},{},{},,{},,{},,,,{},,{},", one.method.name, reported(found.tau), found.cells, one.cost.active,
                            one.seconds, one.cost.cells, one.bytes, one.points);
         csv += one.is_points ? ",,,,,,"
                              : fmt::format("{},{},{},{},{},{},{}", one.triangles, one.components, one.wrong_components, one.euler,

@@ -48,6 +48,7 @@ void print_searches(Terminal& terminal, const Comparison& found) {
                  {"section", true},
                  {"build, ms"},
                  {"query, ms"},
+                 {"cold, ms"},
                  {"cells looked at"},
                  {"nodes"},
                  {"blocks read"},
@@ -57,12 +58,12 @@ void print_searches(Terminal& terminal, const Comparison& found) {
     for (const SearchRun& one : found.searches) {
         if (one.missing_memory > 0) {
             is_complete = false;
-            table.add({one.method.title, one.method.section, "-", "-", "-", "-", "-", "about " + size_text(one.missing_memory), "-"});
+            table.add({one.method.title, one.method.section, "-", "-", "-", "-", "-", "-", "about " + size_text(one.missing_memory), "-"});
             continue;
         }
         const bool is_file = one.file_bytes > 0;
         table.add({one.method.title, one.method.section, milliseconds(one.build_seconds), milliseconds(one.query.seconds),
-                   count_text(one.query.cost.cells), count_text(one.query.cost.nodes), is_file ? count_text(one.query.cost.blocks) : "-",
+                   one.cold_seconds ? milliseconds(*one.cold_seconds) : "-", count_text(one.query.cost.cells), count_text(one.query.cost.nodes), is_file ? count_text(one.query.cost.blocks) : "-",
                    size_text(one.bytes), is_file ? size_text(one.file_bytes) : "-"});
     }
     table.print(terminal);

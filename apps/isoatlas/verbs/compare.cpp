@@ -53,6 +53,8 @@ Comparison compare(const Arguments& arguments, Source& source, ComparePage& page
     if (page.pictured) static_cast<void>(run_extractors(part, tau, options.methods.extractors, draw, source.context()));
     pictures.add_ray_casting();
     page.pictures = pictures.pictures();
+    if (makes_page(arguments) && pictures.camera() != nullptr)
+        page.volume = make_volume_pictures(page.pictured ? part : volume, tau, *pictures.camera(), source.context());
     return found;
 }
 
@@ -81,7 +83,7 @@ int run_compare(const Arguments& arguments, Terminal& terminal) {
             write_image(arguments.output, sheet_of(page.pictures));
     }
     if (arguments.json) {
-        print(terminal, json_of(found));
+        print(terminal, json_of(found, page.volume));
         return 0;
     }
     print_text(terminal, found);

@@ -37,7 +37,7 @@ struct BrickSearch::Data {
     Container store;
     std::unique_ptr<StoredSamples> samples;
 
-    explicit Data(const std::string& path) : store(path), samples(stored_samples(store, 0)) {}
+    explicit Data(const std::string& path) : store(path, std::nullopt), samples(stored_samples(store, 0)) {}
 };
 
 BrickSearch::BrickSearch(const std::string& path) : data_(std::make_unique<Data>(path)) {
@@ -60,6 +60,7 @@ std::vector<CellId> BrickSearch::active(double tau, CellSearchCost& cost) {
 }
 
 std::int64_t BrickSearch::bytes() const { return 2 * data_->samples->grid().count() * size_of(data_->store.contents().volume.type); }
+void BrickSearch::drop_pages() { data_->store.drop_pages(); }
 std::int64_t BrickSearch::file_bytes() const { return data_->store.file_size(); }
 
 }  // namespace isoatlas

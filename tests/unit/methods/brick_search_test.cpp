@@ -37,6 +37,14 @@ RC_GTEST_FIXTURE_PROP(Bricks, FindTheActiveCells, ()) {
     }
 }
 
+TEST_F(Bricks, OfLowValuesAreThoseOfTheNegatedVolume) {
+    const isoatlas::Volume low = isoatlas::negated(isoatlas::make_phantom("random-field", {.size = 24}));
+    isoatlas::build_atlas(path_, low);
+    BrickSearch search(path_);
+    CellSearchCost cost;
+    for (const double tau : {-1.0, 0.0, 1.5}) EXPECT_EQ(search.active(tau, cost), expected(low, tau));
+}
+
 TEST_F(Bricks, ReadThoseThatTheIsovalueDividesAgainEachTime) {
     const isoatlas::Volume volume = isoatlas::make_phantom("random-field", {.size = 64});
     isoatlas::build_atlas(path_, volume);
