@@ -12,8 +12,9 @@
 
 namespace isoatlas {
 
-/// An open store (isoatlas/atlas.h); of one polarity as it is, of both that of high values. Nothing stays between queries, so all of them read as a first one. Counters: nodes are bricks whose
-/// lowest and highest sample are looked at, blocks are bricks read, cells are those whose first corner lies in such a brick.
+/// An open store (isoatlas/atlas.h); of one polarity as it is, of both that of high values. Nothing stays between queries, so all of them
+/// read as a first one. Counters: nodes are bricks whose lowest and highest sample are looked at, blocks are bricks read, cells are those
+/// whose first corner lies in such a brick.
 class BrickSearch final : public CellSearch {
 public:
     /// Throws Error: input (missing, not a store, damaged), resource (2^32 cells or more).

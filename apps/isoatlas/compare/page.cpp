@@ -151,10 +151,9 @@ std::string searches_html(const Comparison& found) {
         const bool is_file = one.file_bytes > 0;
         const CellSearchCost& cost = one.query.cost;
         for (const std::string& cell :
-             {milliseconds(one.build_seconds), milliseconds(one.query.seconds),
-              one.cold_seconds ? milliseconds(*one.cold_seconds) : "–", count_text(cost.cells), count_text(cost.nodes),
-              is_file ? count_text(cost.blocks) : "–", is_file ? size_text(cost.bytes_read) : "–", size_text(one.bytes),
-              is_file ? size_text(one.file_bytes) : "–"})
+             {milliseconds(one.build_seconds), milliseconds(one.query.seconds), one.cold_seconds ? milliseconds(*one.cold_seconds) : "–",
+              count_text(cost.cells), count_text(cost.nodes), is_file ? count_text(cost.blocks) : "–",
+              is_file ? size_text(cost.bytes_read) : "–", size_text(one.bytes), is_file ? size_text(one.file_bytes) : "–"})
             table.add(cell);
     }
     return "<section class=\"panel\">\n<h2>Active cells</h2>\n" + table.html() +
@@ -218,7 +217,8 @@ std::string html_of(const Comparison& found, const ComparePage& page) {
         "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<meta name=\"color-scheme\" content=\"light dark\">\n";
     html += "<meta name=\"generator\" content=\"isoatlas " ISOATLAS_VERSION "\">\n<link rel=\"icon\" href=\"data:,\">\n";
     html += "<title>" + name + " – methods</title>\n<style>" + std::string(kPageStyle) + "</style>\n</head>\n<body>\n<main>\n";
-    html += header_html(found, page) + pictures_html(found, page) + surfaces_html(found) + volume_pictures_html(page.volume) + searches_html(found) + plots_html(found);
+    html += header_html(found, page) + pictures_html(found, page) + surfaces_html(found) + volume_pictures_html(page.volume) +
+            searches_html(found) + plots_html(found);
     html += methods_html(found) + "<footer>isoatlas " ISOATLAS_VERSION "</footer>\n";
     return html + "</main>\n</body>\n</html>\n";
 }

@@ -97,7 +97,8 @@ std::string csv_line(const char* table, const SearchRun& one, double tau, std::i
     std::string line = fmt::format("{},{},{},{},{}", table, one.method.name, tau, cells, active);
     if (one.missing_memory > 0) return line + std::string(kOfQuery + kOfSurface, ',') + '\n';
     const bool is_cold_too = one.cold_seconds && &query == &one.query;
-    line += fmt::format(",{},{},{},{},{},{},{},{},{}", one.build_seconds, query.seconds, is_cold_too ? fmt::format("{}", *one.cold_seconds) : "", query.cost.cells, query.cost.nodes, query.cost.blocks,
+    line += fmt::format(",{},{},{},{},{},{},{},{},{}", one.build_seconds, query.seconds,
+                        is_cold_too ? fmt::format("{}", *one.cold_seconds) : "", query.cost.cells, query.cost.nodes, query.cost.blocks,
                         query.cost.bytes_read, one.bytes, one.file_bytes);
     return line + std::string(kOfSurface, ',') + '\n';
 }
@@ -136,7 +137,8 @@ Json json_of(const Comparison& found, const VolumePictures& volume) {
 
 std::string csv_of(const Comparison& found) {
     std::string csv =
-        "table,method,tau,cells,active_cells,build_seconds,seconds,cold_seconds,cells_looked_at,nodes,blocks,bytes_read,bytes,file_bytes,points,"
+        "table,method,tau,cells,active_cells,build_seconds,seconds,cold_seconds,cells_looked_at,nodes,blocks,bytes_read,bytes,file_bytes,"
+        "points,"
         "triangles,"
         "components,wrong_components,euler,hole_edges,non_manifold_edges,zero_area_triangles,"
         "to_trilinear_mean,to_trilinear_max,from_trilinear_mean,from_trilinear_max\n";

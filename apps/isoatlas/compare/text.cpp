@@ -63,8 +63,9 @@ void print_searches(Terminal& terminal, const Comparison& found) {
         }
         const bool is_file = one.file_bytes > 0;
         table.add({one.method.title, one.method.section, milliseconds(one.build_seconds), milliseconds(one.query.seconds),
-                   one.cold_seconds ? milliseconds(*one.cold_seconds) : "-", count_text(one.query.cost.cells), count_text(one.query.cost.nodes), is_file ? count_text(one.query.cost.blocks) : "-",
-                   size_text(one.bytes), is_file ? size_text(one.file_bytes) : "-"});
+                   one.cold_seconds ? milliseconds(*one.cold_seconds) : "-", count_text(one.query.cost.cells),
+                   count_text(one.query.cost.nodes), is_file ? count_text(one.query.cost.blocks) : "-", size_text(one.bytes),
+                   is_file ? size_text(one.file_bytes) : "-"});
     }
     table.print(terminal);
     terminal.out() << '\n'
