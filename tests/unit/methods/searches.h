@@ -7,7 +7,11 @@
 #include <vector>
 
 #include "faults/memory_files.h"
+#include "isoatlas/analysis.h"
+#include "isoatlas/brick_search.h"
+#include "isoatlas/build.h"
 #include "isoatlas/disk_search.h"
+#include "isoatlas/zone_files.h"
 
 namespace oracle {
 
@@ -24,6 +28,10 @@ public:
         const isoatlas::ReplacedFileSystem files(disk_);
         isoatlas::write_interval_tree("tree", volume, {.block_bytes = block_bytes});
         all_.push_back({"interval-tree-file", std::make_unique<isoatlas::IntervalTreeFile>("tree")});
+        isoatlas::write_zone_files("zones", volume, isoatlas::analyse(volume), {.block_bytes = block_bytes});
+        all_.push_back({"zone-files", std::make_unique<isoatlas::ZoneFileSearch>("zones")});
+        isoatlas::build_atlas("atlas", volume);
+        all_.push_back({"bricks", std::make_unique<isoatlas::BrickSearch>("atlas")});
     }
     [[nodiscard]] std::vector<Named>& all() { return all_; }
 
