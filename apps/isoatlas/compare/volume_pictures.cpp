@@ -80,7 +80,7 @@ std::vector<ProjectionPicture> draw_projections(const SceneVolume& matter, const
 
 std::string figure_of(const Image& image, const std::string& title, const std::string& note) {
     return fmt::format(
-               R"(<li><figure><img width="{0}" height="{0}" alt="{1}: {2}" src="{3}"><figcaption>{1}<span>{2}</span></figcaption></figure></li>)",
+               R"(<li><figure><img width="{0}" height="{0}" style="background:#1d1f26" alt="{1}: {2}" src="{3}"><figcaption>{1}<span>{2}</span></figcaption></figure></li>)",
                kPictureSide, html_text(title), html_text(note), data_address(image)) +
            "\n";
 }
