@@ -13,7 +13,7 @@ namespace isoatlas::cli {
 namespace {
 
 /// What lies far away, as in contours of noise, takes a thousand times as long: fewer parts, and not so far.
-constexpr TrilinearDistanceOptions kDistances{.error = 0.001, .max_distance = 4, .max_parts = 2000};
+constexpr TrilinearDistanceOptions kDistances{.error = 0.001, .max_distance = 2, .max_parts = 500};
 
 /// Tells which method runs, and gives a context in which it says nothing itself. As methods ask whether they are cancelled, the time goes
 /// on.
