@@ -68,21 +68,22 @@ class Pictures(CliTest):
         self.assertNotEqual(rows, whole)
 
     def test_points(self):
-        one = self.run_json("render", "shells.nrrd", "--tau", "0.5", "--points", "1", *self.small, "-o", "p.png")["objects"][0]
-        four = self.run_json("render", "shells.nrrd", "--tau", "0.5", "--points", "4", *self.small, "-o", "p.png")["objects"][0]
+        self.run_ok("phantom", "nested-shells", "--size", "32", "--shells", "2", "-o", "hollow.nrrd", "--quiet")
+        one = self.run_json("render", "hollow.nrrd", "--tau", "0.5", "--points", "1", *self.small, "-o", "p.png")["objects"][0]
+        four = self.run_json("render", "hollow.nrrd", "--tau", "0.5", "--points", "4", *self.small, "-o", "p.png")["objects"][0]
         self.assertEqual([one["triangles"], four["triangles"]], [0, 0])
         self.assertGreater(four["points"], 10 * one["points"])
-        surface = self.picture("shells.nrrd", "--tau", "0.5", "--plain", "--background", "transparent")[2]
-        points = self.picture("shells.nrrd", "--tau", "0.5", "--plain", "--background", "transparent", "--points", "4")[2]
+        surface = self.picture("hollow.nrrd", "--tau", "0.5", "--plain", "--background", "transparent")[2]
+        points = self.picture("hollow.nrrd", "--tau", "0.5", "--plain", "--background", "transparent", "--points", "4")[2]
         covered = [sum(pixel[3] > 127 for row in rows for pixel in row) for rows in (surface, points)]
         self.assertLess(abs(covered[0] - covered[1]), 0.1 * covered[0])
         def objects(*words):
-            return self.run_json("render", "shells.nrrd", *words, "--points", "2", *self.small, "-o", "p.png")["objects"]
+            return self.run_json("render", "hollow.nrrd", *words, "--points", "2", *self.small, "-o", "p.png")["objects"]
         both, one, walls = (objects(*words)[0]["points"] for words in (["--tau", "0.5"], ["--object", "1@0.5"], ["--cavities", "1@0.5"]))
         self.assertLess(one, both)   # the other shell is left out
         self.assertLess(walls, one)
         self.assertGreater(walls, 0)
-        self.run_error(2, "render", "shells.nrrd", "--tau", "0.5", "--points", "2", "--opacity", "0.5", "-o", "p.png")
+        self.run_error(2, "render", "hollow.nrrd", "--tau", "0.5", "--points", "2", "--opacity", "0.5", "-o", "p.png")
 
     def test_document(self):
         document = self.run_json("render", "figure.nrrd", "--tau", "60", "--tau", "30", "--slice", "z=12", "--volume", *self.small, "-o", "p.png")
