@@ -67,7 +67,8 @@ describe.skipIf(!canServe)("the scene", () => {
     await settled(tab);
     expect(held.length).toBeGreaterThan(3); // finer ones came too
     expect(new URL(tab.url()).hash).toContain("&view=");
-    expect(await tab.evaluate(() => (window as unknown as { seen: string[] }).seen.length)).toBe(2);
+    const seen = (): Promise<number> => tab.evaluate(() => (window as unknown as { seen: string[] }).seen.length);
+    await expect.poll(seen).toBe(2); // a busy machine draws later
     await tab.close();
   });
 
@@ -153,14 +154,13 @@ describe.skipIf(!canServe)("the scene", () => {
     const { id, best_tau } = listed[0] as Listed;
     const { tab } = await served.open(scene(1));
     await settled(tab);
-    const note = () => shownAs(tab, "object 1").locator(".state").textContent();
+    const note = () => shownAs(tab, "Object 1").locator(".state").textContent();
     const before = await note();
     await tab.keyboard.press("D");
     await expect.poll(note).toMatch(/points$/);
     expect(new URL(tab.url()).hash).toContain("points=1");
-    const drawn = JSON.parse(
-      served.isoatlas("render", served.store, "--object", `v${id}@${best_tau}`, "--points", "2", "-o", join(served.folder, "p.png"), "--json"),
-    ) as { objects: { points: number }[] };
+    const words = ["--object", `v${id}@${best_tau}`, "--points", "2", "-o", join(served.folder, "p.png"), "--json"];
+    const drawn = JSON.parse(served.isoatlas("render", served.store, ...words)) as { objects: { points: number }[] };
     expect(await note()).toContain(`${drawn.objects[0]?.points.toLocaleString("en-US")} points`);
     await tab.reload();
     await expect.poll(note).toMatch(/points$/);

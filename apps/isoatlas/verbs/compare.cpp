@@ -22,7 +22,7 @@ std::int64_t half_of_memory() {
 
 bool makes_page(const Arguments& arguments) { return arguments.output.ends_with(".html"); }
 
-CompareOptions options_of(const Arguments& arguments) {
+CompareOptions compare_options_of(const Arguments& arguments) {
     const bool has_page = makes_page(arguments);
     return {.methods = chosen_methods(arguments.methods),
             .isovalues = arguments.samples.value_or(has_page ? kPageIsovalues : 0),
@@ -41,7 +41,7 @@ std::string command_of(const Arguments& arguments) {
 Comparison compare(const Arguments& arguments, Source& source, ComparePage& page) {
     const Volume& volume = source.volume();
     const double tau = source.tau();
-    const CompareOptions options = options_of(arguments);
+    const CompareOptions options = compare_options_of(arguments);
     const bool draws = !arguments.output.empty() && volume.info.extent.rank == 3 && !options.methods.extractors.empty();
     if (!draws) return run_comparison(volume, tau, options, {}, source.context());
     page.pictured = picture_box(volume, tau);
