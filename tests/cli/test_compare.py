@@ -138,7 +138,7 @@ class Compare(harness.CliTest):
             shown = [cell.replace(",", "") for cell in surfaces[each["title"]]]
             count = lambda name: "–" if each[name] is None else str(each[name])
             self.assertEqual((shown[3], shown[4]), ("–" if each["makes_points"] else count("triangles"), count("points")))
-            self.assertEqual(shown[7:13], [count(name) for name in ("components", "wrong_components", "euler", "hole_edges", "non_manifold_edges", "zero_area_triangles")])
+            self.assertEqual(shown[7:14], [count(name) for name in ("components", "wrong_components", "euler", "genus", "hole_edges", "non_manifold_edges", "zero_area_triangles")])
         for each in before["searches"]:
             shown = [cell.replace(",", "") for cell in searches[each["title"]]]
             self.assertEqual(shown[6:8], [str(each["cells"]), str(each["nodes"])])

@@ -218,6 +218,7 @@ ExtractedSurface measured(const ComparedMethod& method, double seconds, const Su
                                           cloud.points.size() * (sizeof(cloud.points[0]) + sizeof(cloud.normals[0])));
     one.components = made.difference.components, one.wrong_components = made.difference.wrong;
     one.euler = std::accumulate(report.component_chi.begin(), report.component_chi.end(), std::int64_t{0});
+    if (!one.is_points) one.genus = genus_of(made.defects, std::ssize(report.component_chi), one.euler);
     one.hole_edges = std::ssize(made.defects.hole_edges), one.non_manifold_edges = std::ssize(made.defects.non_manifold_edges);
     one.zero_area_triangles = std::ssize(made.defects.zero_area_triangles);
     return one;

@@ -26,6 +26,7 @@ struct ExtractedSurface {
     ExtractionCost cost{};
     // Of points, all zero:
     std::int64_t components = 0, wrong_components = 0, euler = 0;
+    std::optional<std::int64_t> genus{};  ///< of all together; none: edges have more than two triangles, or rims meet
     std::int64_t hole_edges = 0, non_manifold_edges = 0, zero_area_triangles = 0;
     SurfaceDistance to_trilinear{}, from_trilinear{};  ///< no samples: there was nothing to measure
 };

@@ -99,6 +99,7 @@ std::string surfaces_html(const Comparison& found) {
                                                                  {"components"},
                                                                  {"wrong components"},
                                                                  {"Euler number"},
+                                                                 {"genus"},
                                                                  {"edges of holes"},
                                                                  {"non-manifold edges"},
                                                                  {"zero-area triangles"},
@@ -112,9 +113,10 @@ std::string surfaces_html(const Comparison& found) {
               count_text(one.points), size_text(one.bytes), size_text(one.cost.bytes)})
             table.add(cell);
         if (one.is_points) {
-            for (int i = 0; i < 6; ++i) table.add("–");
+            for (int i = 0; i < 7; ++i) table.add("–");
         } else {
             table.add(count_text(one.components)), table.add_defects(one.wrong_components), table.add(count_text(one.euler));
+            table.add(one.genus ? count_text(*one.genus) : "–");
             for (const std::int64_t count : {one.hole_edges, one.non_manifold_edges, one.zero_area_triangles}) table.add_defects(count);
         }
         table.add(distance_text(one.to_trilinear, one.to_trilinear.mean)), table.add(distance_text(one.to_trilinear, one.to_trilinear.max));

@@ -28,6 +28,7 @@ Json json_of(const ExtractedSurface& one) {
     json["components"] = of_surface(one.components);
     json["wrong_components"] = of_surface(one.wrong_components);
     json["euler"] = of_surface(one.euler);
+    json["genus"] = one.genus ? Json(*one.genus) : Json(nullptr);
     json["hole_edges"] = of_surface(one.hole_edges);
     json["non_manifold_edges"] = of_surface(one.non_manifold_edges);
     json["zero_area_triangles"] = of_surface(one.zero_area_triangles);
@@ -93,7 +94,7 @@ Json sizes_of(const Comparison& found) {
 /// Of a study; the names of methods have no commas.
 std::string csv_line(const char* table, const SearchRun& one, double tau, std::int64_t cells, std::int64_t active,
                      const SearchQuery& query) {
-    constexpr std::size_t kOfQuery = 9, kOfSurface = 12;  // columns behind the first five
+    constexpr std::size_t kOfQuery = 9, kOfSurface = 13;  // columns behind the first five
     std::string line = fmt::format("{},{},{},{},{}", table, one.method.name, tau, cells, active);
     if (one.missing_memory > 0) return line + std::string(kOfQuery + kOfSurface, ',') + '\n';
     const bool is_cold_too = one.cold_seconds && &query == &one.query;
@@ -140,15 +141,16 @@ std::string csv_of(const Comparison& found) {
         "table,method,tau,cells,active_cells,build_seconds,seconds,cold_seconds,cells_looked_at,nodes,blocks,bytes_read,bytes,file_bytes,"
         "points,"
         "triangles,"
-        "components,wrong_components,euler,hole_edges,non_manifold_edges,zero_area_triangles,"
+        "components,wrong_components,euler,genus,hole_edges,non_manifold_edges,zero_area_triangles,"
         "to_trilinear_mean,to_trilinear_max,from_trilinear_mean,from_trilinear_max\n";
     const auto reported = [&](double tau) { return found.info.calibration.reported(tau); };
     for (const ExtractedSurface& one : found.surfaces) {
         csv += fmt::format("surface,{},{},{},{},,{},,{},,,,{},,{},", one.method.name, reported(found.tau), found.cells, one.cost.active,
                            one.seconds, one.cost.cells, one.bytes, one.points);
-        csv += one.is_points ? ",,,,,,"
-                             : fmt::format("{},{},{},{},{},{},{}", one.triangles, one.components, one.wrong_components, one.euler,
-                                           one.hole_edges, one.non_manifold_edges, one.zero_area_triangles);
+        csv += one.is_points ? ",,,,,,,"
+                             : fmt::format("{},{},{},{},{},{},{},{}", one.triangles, one.components, one.wrong_components, one.euler,
+                                           one.genus ? fmt::format("{}", *one.genus) : "", one.hole_edges, one.non_manifold_edges,
+                                           one.zero_area_triangles);
         for (const SurfaceDistance* distance : {&one.to_trilinear, &one.from_trilinear})
             csv += distance->samples == 0 ? std::string(",,") : fmt::format(",{},{}", distance->mean, distance->max);
         csv += '\n';

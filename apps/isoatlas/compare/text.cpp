@@ -21,6 +21,7 @@ void print_surfaces(Terminal& terminal, const Comparison& found) {
                  {"components"},
                  {"of them wrong"},
                  {"Euler number"},
+                 {"genus"},
                  {"edges of holes"},
                  {"non-manifold edges"},
                  {"zero-area triangles"},
@@ -31,13 +32,15 @@ void print_surfaces(Terminal& terminal, const Comparison& found) {
         const auto of_surface = [&](std::int64_t count) { return one.is_points ? std::string("-") : count_text(count); };
         table.add({one.method.title, one.method.section, milliseconds(one.seconds), of_surface(one.triangles), count_text(one.points),
                    size_text(one.bytes), size_text(one.cost.bytes), of_surface(one.components), of_surface(one.wrong_components),
-                   of_surface(one.euler), of_surface(one.hole_edges), of_surface(one.non_manifold_edges),
-                   of_surface(one.zero_area_triangles), distance_text(one.to_trilinear, one.to_trilinear.mean),
-                   distance_text(one.to_trilinear, one.to_trilinear.max), distance_text(one.from_trilinear, one.from_trilinear.max)});
+                   of_surface(one.euler), one.genus ? count_text(*one.genus) : std::string("-"), of_surface(one.hole_edges),
+                   of_surface(one.non_manifold_edges), of_surface(one.zero_area_triangles),
+                   distance_text(one.to_trilinear, one.to_trilinear.mean), distance_text(one.to_trilinear, one.to_trilinear.max),
+                   distance_text(one.from_trilinear, one.from_trilinear.max)});
     }
     table.print(terminal);
     terminal.out()
-        << "\nSurfaces are open where they leave the volume. Wrong components cross other edges of the grid than any component of "
+        << "\nSurfaces are open where they leave the volume; the genus is that after a disk closes each rim. Wrong components cross other "
+           "edges of the grid than any component of "
            "the\ntrilinear surface. Beside it: memory beside samples and surface. Voxels to trilinear: mean distance of what a\nmethod "
            "made to the trilinear surface, and the "
            "largest; from it: the largest the other way, which shows what is missing.\n\n";

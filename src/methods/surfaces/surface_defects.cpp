@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "base/union_find.h"
 #include "isoatlas/surface_methods.h"
 #include "methods/surfaces/grid_positions.h"
 
@@ -17,12 +18,32 @@ bool has_zero_area(const Surface& surface, const std::array<std::int64_t, 3>& tr
     return a[1] * b[2] == a[2] * b[1] && a[2] * b[0] == a[0] * b[2] && a[0] * b[1] == a[1] * b[0];
 }
 
+/// Counts the closed lines that edges with one triangle make: at each of their points two of them meet.
+void count_rims(const std::vector<Edge>& open, SurfaceDefects& defects) {
+    std::vector<std::int64_t> points;
+    for (const Edge& edge : open) points.insert(points.end(), edge.begin(), edge.end());
+    std::ranges::sort(points);
+    for (std::size_t i = 2; i < points.size(); ++i) defects.rims_meet |= points[i] == points[i - 2];
+    points.erase(std::unique(points.begin(), points.end()), points.end());
+    UnionFind<std::size_t> lines(points.size());
+    const auto place = [&](std::int64_t point) {
+        return static_cast<std::size_t>(std::ranges::lower_bound(points, point) - points.begin());
+    };
+    defects.rims = std::ssize(points);
+    for (const Edge& edge : open) {
+        const std::size_t p = lines.find(place(edge[0])), q = lines.find(place(edge[1]));
+        if (p == q) continue;
+        static_cast<void>(lines.join(p, q));
+        --defects.rims;
+    }
+}
+
 }  // namespace
 
 SurfaceDefects find_defects(const Surface& surface, const VolumeInfo& info) {
     const GridPositions positions(info);
     SurfaceDefects defects;
-    std::vector<Edge> edges;
+    std::vector<Edge> edges, open;
     for (std::size_t number = 0; number < surface.triangles.size(); ++number) {
         const auto& t = surface.triangles[number];
         for (std::size_t i = 0; i < 3; ++i) edges.push_back({std::min(t[i], t[(i + 1) % 3]), std::max(t[i], t[(i + 1) % 3])});
@@ -34,11 +55,18 @@ SurfaceDefects find_defects(const Surface& surface, const VolumeInfo& info) {
         for (end = begin; end < edges.size() && edges[end] == edge; ++end) {
         }
         if (end - begin > 2) defects.non_manifold_edges.push_back(edge);
-        const bool is_open = end - begin == 1;
-        if (is_open && (positions.ends_of(surface.points[edge[0]]) & positions.ends_of(surface.points[edge[1]])) == 0)
+        if (end - begin != 1) continue;
+        open.push_back(edge);
+        if ((positions.ends_of(surface.points[edge[0]]) & positions.ends_of(surface.points[edge[1]])) == 0)
             defects.hole_edges.push_back(edge);
     }
+    count_rims(open, defects);
     return defects;
+}
+
+std::optional<std::int64_t> genus_of(const SurfaceDefects& defects, std::int64_t components, std::int64_t euler) {
+    if (defects.rims_meet || !defects.non_manifold_edges.empty()) return std::nullopt;
+    return (2 * components - euler - defects.rims) / 2;
 }
 
 std::int64_t count_hole_edges(const Surface& surface, const VolumeInfo& info) { return std::ssize(find_defects(surface, info).hole_edges); }

@@ -9,6 +9,7 @@
 #include <map>
 #include <set>
 
+#include "isoatlas/cut.h"
 #include "isoatlas/surface_methods.h"
 #include "oracle/mesh_checks.h"
 
@@ -109,6 +110,53 @@ RC_GTEST_PROP(SurfaceDefects, AreThoseThatAreCounted, ()) {
 }
 
 /// Two Highs at the ends of a diagonal of a cell: six tetrahedra join them.
+std::optional<std::int64_t> genus_by(SurfaceMethod method, const isoatlas::Volume& volume, double tau) {
+    const Surface surface = surface_by(method, volume, tau);
+    const isoatlas::SurfaceReport report = isoatlas::inspect(surface.points, surface.triangles);
+    std::int64_t euler = 0;
+    for (const std::int64_t chi : report.component_chi) euler += chi;
+    return isoatlas::genus_of(isoatlas::find_defects(surface, volume.info), std::ssize(report.component_chi), euler);
+}
+
+/// With Lows all around, surfaces are closed: genera are those of the contours.
+RC_GTEST_PROP(SurfaceDefects, GeneraAreThoseOfTheContours, ()) {
+    Grid grid = *arbitrary_grid(8, 300);
+    RC_PRE(grid.rank == 3);
+    const double lowest = *std::min_element(grid.value.begin(), grid.value.end());
+    for (Index v = 0; v < std::ssize(grid.value); ++v) {
+        const std::array<Index, 3> at{v % grid.size[0], v / grid.size[0] % grid.size[1], v / (grid.size[0] * grid.size[1])};
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            if (at[axis] == 0 || at[axis] == grid.size[axis] - 1) grid.value[v] = lowest;
+        }
+    }
+    const isoatlas::Volume volume = to_volume(grid, isoatlas::ValueType::f64);
+    const double tau = grid.value[grid.value.size() / 2] + 0.25;
+    std::int64_t expected = 0;
+    for (const isoatlas::CutContour& contour : isoatlas::cut(volume, tau).contours) expected += contour.genus;
+    RC_ASSERT(genus_by(SurfaceMethod::trilinear, volume, tau) == expected);
+}
+
+TEST(SurfaceDefects, RimsAreClosedByDisks) {
+    std::vector<double> column, tunnel;  // along z, through both ends; and with a hole from side to side
+    for (Index v = 0; v < 8 * 8 * 8; ++v) {
+        const Index x = v % 8, y = v / 8 % 8, z = v / 64;
+        const bool is_column = x > 1 && x < 6 && y > 1 && y < 6;
+        column.push_back(is_column ? 1 : 0);
+        tunnel.push_back(is_column && (y < 3 || y > 4 || z < 3 || z > 4) ? 1 : 0);
+    }
+    const auto volume = [](const std::vector<double>& values) { return isoatlas::make_volume<double>({3, {8, 8, 8}}, values); };
+    for (const SurfaceMethod method : {SurfaceMethod::marching_cubes, SurfaceMethod::six_tetrahedra, SurfaceMethod::trilinear}) {
+        EXPECT_EQ(genus_by(method, volume(column), 0.5), 0);
+        EXPECT_EQ(genus_by(method, volume(tunnel), 0.5), 1);
+    }
+    Surface fin = surface_by(SurfaceMethod::trilinear, volume(column), 0.5);  // two more triangles at an edge
+    for (const double far : {-1.0, -2.0}) {
+        fin.points.push_back({far, far, far});
+        fin.triangles.push_back({fin.triangles[0][0], fin.triangles[0][1], std::ssize(fin.points) - 1});
+    }
+    EXPECT_EQ(isoatlas::genus_of(isoatlas::find_defects(fin, volume(column).info), 1, 0), std::nullopt);
+}
+
 TEST(SurfaceDefects, ComponentsThatAreJoinedAreWrong) {
     std::vector<double> values(64, 0.0);
     values[1 + 4 * (1 + 4 * 1)] = values[2 + 4 * (2 + 4 * 2)] = 1;
