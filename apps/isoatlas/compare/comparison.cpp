@@ -1,12 +1,12 @@
 #include "compare/comparison.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <map>
 #include <numeric>
 #include <utility>
 
+#include "compare/seconds_of.h"
 #include "data/temporary_folder.h"
 
 namespace isoatlas::cli {
@@ -45,13 +45,6 @@ private:
     int count_, begun_ = -1;
     std::string method_;
 };
-
-template <class Work>
-double seconds_of(const Work& work) {
-    const auto start = std::chrono::steady_clock::now();
-    work();
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
 
 std::int64_t cells_of(const Extent& extent) {
     std::int64_t cells = 1;

@@ -1,7 +1,6 @@
 #include "compare/volume_pictures.h"
 
 #include <algorithm>
-#include <chrono>
 #include <utility>
 
 #include <fmt/format.h>
@@ -9,6 +8,7 @@
 #include "compare/html.h"
 #include "compare/html_table.h"
 #include "compare/output.h"
+#include "compare/seconds_of.h"
 #include "data/picture.h"
 #include "text/values.h"
 
@@ -35,13 +35,6 @@ SceneVolume matter_from(const Volume& volume, double tau) {
     SceneVolume matter{.volume = &volume, .range = range};
     matter.curves = {{.points = {{tau - ramp, 0}, {tau + ramp, thin}, {std::max(range[1], tau + 2 * ramp), thick}}, .colour = palette(0)}};
     return matter;
-}
-
-template <class Work>
-double seconds_of(const Work& work) {
-    const auto start = std::chrono::steady_clock::now();
-    work();
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
 std::vector<ModelPicture> draw_models(const SceneVolume& matter, const Camera& camera, const Context& context) {

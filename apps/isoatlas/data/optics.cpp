@@ -15,7 +15,9 @@ const std::vector<std::pair<std::string, OpticalModel>> kModels{{"absorption", O
                                                                 {"single-scattering", OpticalModel::single_scattering},
                                                                 {"multiple-scattering", OpticalModel::multiple_scattering}};
 
-[[noreturn]] void refuse(const std::string& what, const std::string& next) { throw Error(ErrorKind::usage, {.what = what, .next = next}); }
+[[noreturn]] void refuse_optics(const std::string& what, const std::string& next) {
+    throw Error(ErrorKind::usage, {.what = what, .next = next});
+}
 
 /// Options that only some of the models know.
 void check_combination(const PictureWords& words, const PictureArguments& picture) {
@@ -23,21 +25,24 @@ void check_combination(const PictureWords& words, const PictureArguments& pictur
                is_multiple = picture.optics == OpticalModel::multiple_scattering;
     const bool scatters = is_multiple || picture.optics == OpticalModel::single_scattering;
     if (!is_default && !picture.volume)
-        refuse("--optics " + words.optics + " is of volume rendering, and there is none", "add --volume, or --transfer or --material");
+        refuse_optics("--optics " + words.optics + " is of volume rendering, and there is none",
+                      "add --volume, or --transfer or --material");
     if (!is_default && picture.shadows)
-        refuse("--shadows does not go with --optics " + words.optics,
-               scatters ? "leave out --shadows: what scatters is in the shadow of other matter" : "leave out --shadows, or --optics");
+        refuse_optics(
+            "--shadows does not go with --optics " + words.optics,
+            scatters ? "leave out --shadows: what scatters is in the shadow of other matter" : "leave out --shadows, or --optics");
     if (picture.optics == OpticalModel::emission && picture.background == Background::transparent)
-        refuse("--optics emission has no opacity, and is not seen on a transparent background", "use --background dark");
+        refuse_optics("--optics emission has no opacity, and is not seen on a transparent background", "use --background dark");
     const std::array<std::pair<const char*, bool>, 3> given{
         {{"--albedo", words.albedo.has_value()}, {"--asymmetry", words.asymmetry.has_value()}, {"--light", !words.light.empty()}}};
     for (const auto& [option, is_given] : given) {
         if (is_given && !scatters)
-            refuse(std::string(option) + " is of matter that scatters, and --optics " + words.optics + " does not",
-                   "add --optics single-scattering or --optics multiple-scattering, or leave it out");
+            refuse_optics(std::string(option) + " is of matter that scatters, and --optics " + words.optics + " does not",
+                          "add --optics single-scattering or --optics multiple-scattering, or leave it out");
     }
     if (words.sky && !is_multiple)
-        refuse("--sky is of multiple scattering, and not of --optics " + words.optics, "add --optics multiple-scattering, or leave it out");
+        refuse_optics("--sky is of multiple scattering, and not of --optics " + words.optics,
+                      "add --optics multiple-scattering, or leave it out");
 }
 
 }  // namespace
