@@ -13,7 +13,7 @@
 namespace isoatlas {
 namespace {
 
-constexpr std::string_view kMagic = "isoatlas BITREE\n";
+constexpr std::string_view kTreeMagic = "isoatlas BITREE\n";
 
 /// Numbers of the header.
 constexpr std::size_t kType = 0, kCells = 1, kSlabs = 2, kLevels = 3, kRoot = 4, kFirst = 5, kCount = 6;
@@ -44,7 +44,7 @@ void write_tree(const std::string& path, const VolumeView& volume, const Release
     visit_samples(volume, [&]<class T>(std::span<const T> samples) {
         const CellGrid<T> grid(volume.info->extent, samples);
         require_countable(grid.count(), volume.info->path);
-        BlockWriter file(path, kMagic, options.block_bytes);
+        BlockWriter file(path, kTreeMagic, options.block_bytes);
         Array<CellInterval<T>> cells = all_intervals(grid, context);
         release();
         const std::int64_t count = std::ssize(cells);
@@ -78,7 +78,7 @@ struct IntervalTreeFile::Data {
     BlockReader file;
 };
 
-IntervalTreeFile::IntervalTreeFile(const std::string& path) : data_(std::make_unique<Data>(BlockReader(path, kMagic))) {
+IntervalTreeFile::IntervalTreeFile(const std::string& path) : data_(std::make_unique<Data>(BlockReader(path, kTreeMagic))) {
     const HeaderNumbers& numbers = data_->file.numbers();
     if (numbers[kType] < 0 || numbers[kType] > static_cast<std::int64_t>(ValueType::f64))
         data_->file.fail("the type of the samples is unknown");
