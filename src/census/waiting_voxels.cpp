@@ -41,13 +41,15 @@ void WaitingVoxels::add_top(Tops& tops, EventId event) const {
 }
 
 void cut_into_pieces(const EventChains& events, std::span<const Tops* const> corners, std::vector<Chain>& pieces) {
-    std::vector<Chain> chains;
+    std::array<Chain, 8 * std::tuple_size_v<decltype(Tops::event)>> chains;  // for every cell: nothing is allocated
+    auto end = chains.begin();
     for (const Tops* tops : corners) {
         for (const EventId top : tops->list()) {
-            if (std::ranges::find(chains, Chain{top, tops->end}) == chains.end()) chains.push_back({top, tops->end});
+            const Chain chain{top, tops->end};
+            if (std::find(chains.begin(), end, chain) == end) *end++ = chain;
         }
     }
-    events.cut_apart(chains, pieces);
+    events.cut_apart(std::span(chains.begin(), end), pieces);
 }
 
 }  // namespace isoatlas
