@@ -30,11 +30,6 @@ std::string lower(std::string text) {
     return text;
 }
 
-double machine_memory() {
-    const long pages = ::sysconf(_SC_PHYS_PAGES), page = ::sysconf(_SC_PAGE_SIZE);
-    return pages > 0 && page > 0 ? static_cast<double>(pages) * static_cast<double>(page) : INFINITY;
-}
-
 void check_file_system(const std::string& output) {
     std::error_code ignored;
     if (fs::is_directory(output, ignored)) {
@@ -51,6 +46,11 @@ void check_file_system(const std::string& output) {
 }
 
 }  // namespace
+
+double machine_memory() {
+    const long pages = ::sysconf(_SC_PHYS_PAGES), page = ::sysconf(_SC_PAGE_SIZE);
+    return pages > 0 && page > 0 ? static_cast<double>(pages) * static_cast<double>(page) : INFINITY;
+}
 
 ValueRange range_of(const Volume& volume) {
     return visit_samples(volume, [](auto samples) {

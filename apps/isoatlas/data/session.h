@@ -44,6 +44,9 @@ struct Cost {
 /// "memory 210 MB to 1.3 GB, time about 2 s" for messages.
 [[nodiscard]] std::string cost_text(const VolumeInfo& info, int threads);
 
+/// Bytes that the machine has; infinity: unknown.
+[[nodiscard]] double machine_memory();
+
 /// Applies --gaussian and --box.
 [[nodiscard]] Volume shaped(Volume volume, const Arguments& arguments, const Context& context);
 

@@ -1,6 +1,6 @@
 // isoatlas compare: the methods of the literature on one volume, side by side: those that make surfaces, and those that search active
 // cells.
-#include <unistd.h>
+#include <cmath>
 
 #include <fmt/format.h>
 
@@ -16,8 +16,8 @@ namespace {
 constexpr std::int64_t kPageIsovalues = 9, kPageSizes = 4;  ///< of the studies, unless the user says otherwise
 
 std::int64_t half_of_memory() {
-    const long pages = ::sysconf(_SC_PHYS_PAGES), page = ::sysconf(_SC_PAGE_SIZE);
-    return pages > 0 && page > 0 ? static_cast<std::int64_t>(pages) * page / 2 : 0;
+    const double memory = machine_memory();
+    return std::isfinite(memory) ? static_cast<std::int64_t>(memory / 2) : 0;
 }
 
 bool makes_page(const Arguments& arguments) { return arguments.output.ends_with(".html"); }
