@@ -9,6 +9,7 @@
 #include "isoatlas/surface_methods.h"
 #include "oracle/mesh_checks.h"
 #include "oracle/tunnels.h"
+#include "unit/methods/generic_tau.h"
 
 namespace oracle {
 namespace {
@@ -117,18 +118,6 @@ TEST(MarchingCubes33, TrianglesOfATubeMayCross) {
     const isoatlas::Volume cell = cell_of({0, 2, 2, 0, -1, -1, -1, 1});
     EXPECT_GT(count_crossings(extract_by(SurfaceMethod::marching_cubes_33, cell, 0.5)), 0);
     EXPECT_EQ(count_crossings(extract_by(SurfaceMethod::trilinear, cell, 0.5)), 0);
-}
-
-/// An isovalue between samples and saddles, and not so near one that rounding decides; nothing where there is none.
-std::optional<double> generic_tau(const Grid& grid) {
-    const Elements elements = elements_of(grid, isoatlas::Interpolant::trilinear);
-    std::vector<double> values = interesting_values(elements);
-    const double range = values.back() - values.front();
-    std::erase_if(values, [&](double tau) {
-        return std::ranges::any_of(elements.all, [&](const Element& e) { return std::abs(e.value - tau) < 1e-7 * range; });
-    });
-    if (values.empty()) return std::nullopt;
-    return values[*rc::gen::inRange<std::size_t>(0, values.size())];
 }
 
 RC_GTEST_PROP(MarchingCubes33Of, AnyVolumeHasTheComponentsOfTheTrilinearInterpolant, ()) {

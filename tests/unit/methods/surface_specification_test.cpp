@@ -7,6 +7,7 @@
 
 #include "isoatlas/surface_methods.h"
 #include "oracle/mesh_checks.h"
+#include "unit/methods/generic_tau.h"
 
 namespace oracle {
 namespace {
@@ -26,17 +27,6 @@ Grid arbitrary_3d() {
     Grid grid = *arbitrary_grid(5, 60);
     grid.rank = 3;
     return grid;
-}
-/// An isovalue between samples and saddles, and not so near one that rounding decides; nothing where there is none.
-std::optional<double> generic_tau(const Grid& grid) {
-    const Elements elements = elements_of(grid, isoatlas::Interpolant::trilinear);
-    std::vector<double> values = interesting_values(elements);
-    const double range = values.back() - values.front();
-    std::erase_if(values, [&](double tau) {
-        return std::ranges::any_of(elements.all, [&](const Element& e) { return std::abs(e.value - tau) < 1e-7 * range; });
-    });
-    if (values.empty()) return std::nullopt;
-    return values[*rc::gen::inRange<std::size_t>(0, values.size())];
 }
 
 RC_GTEST_PROP(SurfaceSpecification, OnlyConnectedContoursAndMarchingCubesHaveHoles, ()) {
