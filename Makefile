@@ -37,9 +37,8 @@ format: ## format all sources in place
 	@scripts/bootstrap.sh test
 	@scripts/format.sh --fix
 
-lint: ## clang-tidy over src and apps
+lint: ## clang-tidy over src and apps, with the warnings of clang
 	@scripts/bootstrap.sh test
-	@cmake --preset dev >/dev/null
 	@scripts/lint.py
 
 bench: ## measure: analysis against a sort, surfaces and stores against Flying Edges, pictures against VTK's ray caster, pages, growth; writes build/bench/*.json and docs/performance.md (without ../shared/data: phantoms alone); parts: scripts/bench.sh

@@ -53,7 +53,6 @@ test|fish|completion of its users
 test|groff|manual pages without a warning
 test|clang-format-19|format check
 test|clang-tidy-19|lint
-test|clang-19|a second compiler: the command line without a warning
 test|mold|links the many test programs
 bench|python3-vtk9|Flying Edges, the yardstick of surface extraction
 bench|python3-numpy|reads the volumes for VTK

@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""clang-tidy over src and apps: scripts/lint.py [BUILD_FOLDER], which has the compile commands (default build/dev).
+"""clang-tidy over src and apps, the warnings of clang included: scripts/lint.py [BUILD_FOLDER], which has the compile commands; without,
+build/lint is configured for it. Nothing needs to be built.
 
 Most of the time goes into the headers of the standard library, so the files of a folder are read together, as ISOATLAS_UNITY compiles
 them: no two of them have a name in both unnamed namespaces."""
@@ -16,6 +17,8 @@ import tempfile
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 TIDY = "clang-tidy-19"
+# Warnings of clang are findings too. Not: what g++ alone knows, and get_temporary_buffer in std::stable_sort of libstdc++ 12.
+WARNINGS = ["-Wno-unknown-warning-option", "-Wno-ignored-optimization-argument", "-Wno-deprecated-declarations"]
 
 
 def groups(commands):
@@ -41,14 +44,23 @@ def lint(options, files):
         unit.writelines(f'#include "{file}"\n' for file in files)
         unit.flush()
         done = subprocess.run([TIDY, "--quiet", f"--config-file={ROOT / '.clang-tidy'}", "--checks=-bugprone-suspicious-include", unit.name,
-                               "--", *options, "-w"], capture_output=True, text=True)
+                               "--", *options, *WARNINGS], capture_output=True, text=True)
     if done.returncode == 0:
         return ""
     return done.stdout or done.stderr
 
 
+def configured():
+    """A build folder with the compile command of every file by itself."""
+    build = ROOT / "build" / "lint"
+    done = subprocess.run(["cmake", "--preset", "dev", "-B", build, "-DISOATLAS_UNITY=OFF"], cwd=ROOT, capture_output=True, text=True)
+    if done.returncode != 0:
+        sys.exit(f"{done.stdout}{done.stderr}lint: configuring failed; the message of cmake is above")
+    return build
+
+
 def main():
-    build = pathlib.Path(sys.argv[1] if len(sys.argv) > 1 else ROOT / "build" / "dev")
+    build = pathlib.Path(sys.argv[1]) if len(sys.argv) > 1 else configured()
     commands = json.loads((build / "compile_commands.json").read_text())
     units = list(groups(commands))
     with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:

@@ -16,7 +16,7 @@
 namespace isoatlas {
 namespace {
 
-constexpr std::int64_t kSide = 72;             // pixels of a candidate picture
+constexpr std::int64_t kPixels = 72;           // a side of a candidate picture
 constexpr int kAround = 12;                    // directions around the axis
 constexpr double kElevations[] = {8, 24, 40};  // degrees; never from below, and not steeply from above
 constexpr double kNearlyAsGood = 0.985;        // the first direction within this tolerance of the best, for stability against noise
@@ -45,10 +45,10 @@ int piece_of(const Vec3& point, const Vec3& normal) {
 
 double entropy_of(const RaySurfaces& surfaces, const View& view) {
     const Camera camera{.view = view, .height = 2};
-    const CameraRays rays(camera, kSide, kSide);
+    const CameraRays rays(camera, kPixels, kPixels);
     std::map<int, std::int64_t> pixels;
-    for (std::int64_t y = 0; y < kSide; ++y) {
-        for (std::int64_t x = 0; x < kSide; ++x) {
+    for (std::int64_t y = 0; y < kPixels; ++y) {
+        for (std::int64_t x = 0; x < kPixels; ++x) {
             const Ray ray = rays.through(static_cast<double>(x) + 0.5, static_cast<double>(y) + 0.5, 2);
             const std::optional<Crossing> hit = surfaces.first(ray);
             ++pixels[hit ? piece_of(along(ray.origin, hit->t, ray.direction), hit->normal) : -1];
@@ -56,7 +56,7 @@ double entropy_of(const RaySurfaces& surfaces, const View& view) {
     }
     double entropy = 0;
     for (const auto& [piece, count] : pixels) {
-        const double p = static_cast<double>(count) / (kSide * kSide);
+        const double p = static_cast<double>(count) / (kPixels * kPixels);
         entropy -= p * std::log2(p);
     }
     return entropy;

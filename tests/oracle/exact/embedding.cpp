@@ -237,7 +237,7 @@ std::string EmbeddingTally::text() const {
 
 int repetitions() {
     const char* trials = std::getenv("ISOATLAS_TRIALS");
-    return trials == nullptr ? 1 : std::max(1, std::atoi(trials) / 500);
+    return trials == nullptr ? 1 : std::max(1, std::atoi(trials) / 200);
 }
 
 }  // namespace oracle
