@@ -107,7 +107,8 @@ public:
 
 private:
     using Clock = std::chrono::steady_clock;
-    std::optional<Clock::time_point> start_{}, phase_start_{};
+    std::optional<Clock::time_point> start_{}, phase_start_{}, measured_{};
+    std::int64_t peak_ = 0;                  ///< of the memory, when it was measured
     double first_ = 0, first_of_phase_ = 0;  ///< fractions that were reached before: finished phases take no time
     double furthest_ = 0;
     int phase_ = -1;

@@ -14,6 +14,7 @@ constexpr std::array kShares{0.0, 0.03, 0.17, 0.17, 0.17, 0.25, 0.4, 0.83, 1.0};
 constexpr int kPhasesOfPass = 6;                         ///< from classify to objects, once for each polarity
 constexpr double kOnePass = kShares[7] - kShares[1];     ///< of a build of one polarity
 constexpr double kEnoughToTell = 0.02, kShortest = 0.5;  ///< min fraction and seconds for an estimate
+constexpr std::chrono::milliseconds kMeasureEvery{100};  ///< memory: the system takes longer than a brick is packed
 
 /// Fraction of the whole build.
 double fraction_of(const Progress& progress) {
@@ -34,11 +35,12 @@ BuildState BuildClock::at(const Progress& progress) {
     if (!start_) start_ = now, first_ = fraction;
     if (progress.phase_index != phase_) phase_ = progress.phase_index, phase_start_ = now, first_of_phase_ = progress.fraction;
     furthest_ = fraction;
+    if (!measured_ || now - *measured_ >= kMeasureEvery) measured_ = now, peak_ = peak_memory();
     BuildState state{.phase = std::string(progress.phase),
                      .phase_index = progress.phase_index,
                      .phase_count = progress.phase_count,
                      .fraction = fraction,
-                     .peak_memory = peak_memory()};
+                     .peak_memory = peak_};
     const double seconds = std::chrono::duration<double>(now - *start_).count();
     if (fraction > first_ + kEnoughToTell && seconds > kShortest) state.seconds_left = seconds * (1 - fraction) / (fraction - first_);
     const double of_phase = std::chrono::duration<double>(now - *phase_start_).count(), done = progress.fraction - first_of_phase_;
