@@ -10,6 +10,7 @@
 #include "analysis/trees.h"
 #include "base/check.h"
 #include "base/memory_limit.h"
+#include "base/parallel.h"
 #include "base/streamed.h"
 #include "critical/basins.h"
 #include "critical/elements_with_extrema.h"
@@ -58,16 +59,26 @@ bool fit(const AnalysisArrays<Number>& arrays, ByVoxelView<Number, Number> basin
     return true;
 }
 
-/// basin: empty when it is not known.
 template <class Number>
-bool find_zones(const VolumeView& volume, ByVoxel<Number, Number> basin, AnalysisArrays<Number>& arrays, const Context& context) {
+bool find_zones(const VolumeView& volume, AnalysisArrays<Number>& arrays, const Context& context) {
     return visit_samples(volume, [&]<class T>(std::span<const T> samples) {
         const GridView<T> grid{samples.data(), volume.info->extent};
-        if (basin.empty()) basin.items() = basins_of_maxima<Number>(grid.extent, links_of_grid(grid, context), context);
+        ByVoxel<Number, Number> basin;
+        basin.items() = basins_of_maxima<Number>(grid.extent, links_of_grid(grid, context), context);
         if (!fit<Number>(arrays, basin, grid.extent)) return false;
         make_zones(GridDomain<T, Number>(grid, {}), std::move(basin), arrays, context);
         return true;
     });
+}
+
+/// The zone of every voxel is that of the event of its element.
+template <class Number>
+void take_zones(ByVoxel<Number, Number> element, const ElementVoxels& voxels, AnalysisArrays<Number>& arrays, int threads) {
+    std::span<Number> to_zone = element.items();
+    for_each_index(threads, to_zone.size(),
+                   [&](std::size_t v) { to_zone[v] = arrays.tree.event_of_element[ElementIdOf<Number>(to_zone[v])].number(); });
+    arrays.zone = std::move(element);
+    add_up_voxels<Number>(std::get<ByElement<Number, Number>>(voxels), arrays);
 }
 
 template <class Number>
@@ -79,7 +90,10 @@ ByElement<Number, Number> count(ArcArrays<Number>& arcs, const VolumeView& volum
             return voxels_by_tiles<T, Number>(grid, arcs.value, arcs.code, context);
         }
         if (arcs.basin.empty()) arcs.basin.items() = basins_of_maxima<Number>(grid.extent, links_of_grid(grid, context), context);
-        return voxels_by_paths<T, Number>(grid, arcs.value, arcs.code, arcs.contours, arcs.basin, context);
+        ByElement<Number, Number> voxels =
+            voxels_by_paths<T, Number>(grid, arcs.value, arcs.code, arcs.contours, arcs.basin.items(), context);
+        arcs.element = std::move(arcs.basin);
+        return voxels;
     });
 }
 
@@ -119,18 +133,23 @@ std::optional<Analysis> restored_trees(ContourArcs& arcs, const Context& context
     return Analysis(std::move(data));
 }
 
-Analysis make_analysis(ContourArcs arcs, const VolumeView& volume, const Context& context) {
+Analysis make_analysis(ContourArcs arcs, const ElementVoxels& voxels, const VolumeView& volume, const Context& context) {
     std::optional<Analysis> analysis = restored_trees(arcs, context);
     ISOATLAS_CHECK(analysis.has_value());
-    ISOATLAS_CHECK(analysis->data().visit([&]<class Number>(IndexedArrays<Number>& held) {
-        return find_zones(volume, std::move(std::get<ArcArrays<Number>>(arcs.arrays).basin), held.arrays, context);
-    }));
+    analysis->data().visit([&]<class Number>(IndexedArrays<Number>& held) {
+        ByVoxel<Number, Number>& element = std::get<ArcArrays<Number>>(arcs.arrays).element;
+        if (element.empty()) {
+            ISOATLAS_CHECK(find_zones<Number>(volume, held.arrays, context));
+        } else {
+            take_zones<Number>(std::move(element), voxels, held.arrays, context.threads);
+        }
+    });
     return std::move(*analysis);
 }
 
 bool add_zones(Analysis& analysis, const VolumeView& volume, const Context& context) {
     return analysis.data().visit(
-        [&]<class Number>(IndexedArrays<Number>& held) { return find_zones<Number>(volume, {}, held.arrays, context); });
+        [&]<class Number>(IndexedArrays<Number>& held) { return find_zones<Number>(volume, held.arrays, context); });
 }
 
 }  // namespace isoatlas

@@ -7,6 +7,7 @@
 namespace isoatlas {
 
 struct VolumeView;
+struct ZoneSums;
 
 /// Cost: beside each other the sublevel tree with its branches (features/cavity_candidates.h) and those of the superlevel tree, each some
 /// passes over samples and zones in order, one voxel after the other; 60 bytes an event of both trees.
@@ -16,7 +17,8 @@ struct VolumeView;
 [[nodiscard]] CavityTable rank_cavities(const VolumeView& volume, const Analysis& analysis, const RankOptions& options,
                                         const Context& context);
 
+/// sums: receives those of sum_zones(), unless null.
 [[nodiscard]] ObjectsAndCavities rank_both(const VolumeView& volume, const Analysis& analysis, const RankOptions& options,
-                                           const Context& context);
+                                           const Context& context, ZoneSums* sums = nullptr);
 
 }  // namespace isoatlas

@@ -10,6 +10,7 @@
 #include "features/cavity_walls.h"
 #include "features/noise.h"
 #include "features/rank.h"
+#include "features/zone_sums.h"
 #include "field/order.h"
 #include "isoatlas/environment.h"
 #include "isoatlas/objects.h"
@@ -27,11 +28,14 @@ public:
           is_3d_(is_3d),
           values_(event_values(arrays)),
           tree_(superlevel_tree<Id>(arrays, values_)),
-          branches_(decompose_branches(tree_, sum_zones(tree_, volume_))) {}
+          zones_(sum_zones(tree_, volume_)),
+          branches_(decompose_branches(tree_, zones_)) {}
 
     [[nodiscard]] CandidateTable candidates(const NoiseModel& noise, const RankOptions& options) const {
         return find_candidates(volume_, tree_, branches_, noise, options);
     }
+
+    [[nodiscard]] ZoneSums take_zones() && { return std::move(zones_); }
 
     /// chosen: of candidates(). around: as for wall_isovalues().
     [[nodiscard]] ObjectTable table(const NoiseModel& noise, CandidateTable chosen, const CavityCandidates<Id>& cavities,
@@ -77,10 +81,11 @@ private:
     bool is_3d_;
     BigVector<double> values_;
     ObjectTree<Id> tree_;
+    ZoneSums zones_;
     BranchDecomposition branches_;
 };
 
-/// Calls use(arrays, noise, significant cavities, table of objects).
+/// Calls use(arrays, noise, significant cavities, table of objects, sums of the zones of objects).
 template <class Use>
 auto with_tables(const VolumeView& volume, const Analysis& analysis, const RankOptions& options, const Context& context, const Use& use) {
     if (volume.info->extent != analysis.extent())
@@ -98,7 +103,8 @@ auto with_tables(const VolumeView& volume, const Analysis& analysis, const RankO
                 ranking.emplace(volume, arrays, analysis.extent().rank == 3);
                 chosen = ranking->candidates(noise, options);
             });
-        return use(arrays, noise, cavities, ranking->table(noise, std::move(chosen), cavities, objects_around(analysis, arrays, cavities)));
+        ObjectTable table = ranking->table(noise, std::move(chosen), cavities, objects_around(analysis, arrays, cavities));
+        return use(arrays, noise, cavities, std::move(table), std::move(*ranking).take_zones());
     });
 }
 
@@ -106,7 +112,7 @@ auto with_tables(const VolumeView& volume, const Analysis& analysis, const RankO
 
 ObjectTable rank_objects(const VolumeView& volume, const Analysis& analysis, const RankOptions& options, const Context& context) {
     return with_tables(volume, analysis, options, context,
-                       [](const auto&, const NoiseModel&, const auto&, ObjectTable table) { return table; });
+                       [](const auto&, const NoiseModel&, const auto&, ObjectTable table, ZoneSums) { return table; });
 }
 
 ObjectTable rank_objects(const Volume& volume, const Analysis& analysis, const RankOptions& options, const Context& context) {
@@ -114,9 +120,11 @@ ObjectTable rank_objects(const Volume& volume, const Analysis& analysis, const R
     return rank_objects(VolumeView(volume), analysis, options, context);
 }
 
-ObjectsAndCavities rank_both(const VolumeView& volume, const Analysis& analysis, const RankOptions& options, const Context& context) {
+ObjectsAndCavities rank_both(const VolumeView& volume, const Analysis& analysis, const RankOptions& options, const Context& context,
+                             ZoneSums* sums) {
     return with_tables(volume, analysis, options, context,
-                       [&](const auto& arrays, const NoiseModel& noise, const auto& cavities, ObjectTable table) {
+                       [&](const auto& arrays, const NoiseModel& noise, const auto& cavities, ObjectTable table, ZoneSums zones) {
+                           if (sums != nullptr) *sums = std::move(zones);
                            const bool is_same = options.gate && !options.selection;  // the same cavities as for the table of objects
                            CavityTable cavity_rows = is_same ? cavity_table(volume, analysis, arrays, cavities, noise, options.top)
                                                              : rank_cavities(volume, analysis, options, context);

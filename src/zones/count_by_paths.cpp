@@ -19,7 +19,7 @@ bool paths_fit(std::size_t elements) {
 template <class T, class Number>
 ByElement<Number, Number> voxels_by_paths(const GridView<T>& grid, ByElementView<Number, double> value,
                                           ByElementView<Number, std::uint64_t> code, const ContourTree<Number>& contours,
-                                          ByVoxelView<Number, Number> basin, const Context& context) {
+                                          std::span<Number> basin_to_element, const Context& context) {
     using Paths = HeavyPathDecomposition<Number, ComparisonValue<T>>;
     using Tree = DescendingTree<Number>;
     const std::size_t n = value.size();
@@ -34,7 +34,7 @@ ByElement<Number, Number> voxels_by_paths(const GridView<T>& grid, ByElementView
     const std::int64_t slice = grid.extent.slice();
     for_each_slab_of(slab_height(grid.extent, context), context, kAnalysisPhases["zones"], grid.extent.size[2], [&](const Slab& slab) {
         const std::size_t first = slab.z_begin * slice, count = (slab.z_end - slab.z_begin) * slice;
-        count_zones<T, Number>({grid.samples + first, count}, paths, basin.items().subspan(first, count), voxels.items());
+        label_zones<T, Number>({grid.samples + first, count}, paths, basin_to_element.subspan(first, count), voxels.items());
     });
     return voxels;
 }
@@ -43,7 +43,7 @@ ByElement<Number, Number> voxels_by_paths(const GridView<T>& grid, ByElementView
 #define ISOATLAS_BY_PATHS_OF(T, Number)                                                                                  \
     template ByElement<Number, Number> voxels_by_paths(const GridView<T>&, ByElementView<Number, double>,                \
                                                        ByElementView<Number, std::uint64_t>, const ContourTree<Number>&, \
-                                                       ByVoxelView<Number, Number>, const Context&);
+                                                       std::span<Number>, const Context&);
 #define ISOATLAS_BY_PATHS(T)               \
     ISOATLAS_BY_PATHS_OF(T, std::uint32_t) \
     ISOATLAS_BY_PATHS_OF(T, std::uint64_t)

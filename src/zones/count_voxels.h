@@ -5,6 +5,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 
 #include "field/grid.h"
 #include "isoatlas/context.h"
@@ -15,12 +16,12 @@ namespace isoatlas {
 /// Does the memory limit leave room for the paths of so many elements, which are accessed at random?
 [[nodiscard]] bool paths_fit(std::size_t elements);
 
-/// With the tree. value, code: of all elements; contours: their arcs; basin: of critical/elements_with_extrema.h.
-/// Cost: O(n alpha + voxels), about 30 bytes an element.
+/// With the tree. value, code: of all elements; contours: their arcs. basin_to_element: basins of critical/elements_with_extrema.h, which
+/// the element takes the place of that the voxel belongs to. Cost: O(n alpha + voxels), about 30 bytes an element.
 template <class T, class Number>
 [[nodiscard]] ByElement<Number, Number> voxels_by_paths(const GridView<T>& grid, ByElementView<Number, double> value,
                                                         ByElementView<Number, std::uint64_t> code, const ContourTree<Number>& contours,
-                                                        ByVoxelView<Number, Number> basin, const Context& context);
+                                                        std::span<Number> basin_to_element, const Context& context);
 
 /// The same without a tree: works on one tile a thread at a time, and on what spans tiles in descending order.
 /// Cost: O(n alpha + voxels log(voxels of a tile)).

@@ -53,11 +53,13 @@ private:
     std::vector<Number> own_, sorted_;
 };
 
-/// Calls visit(first, zones) for block after block. room(first, count): where the zones of a block go.
-template <class T, class Number, class Room, class Visit>
-void for_zones(std::span<const T> samples, const HeavyPathDecomposition<Number, ComparisonValue<T>>& paths, std::span<const Number> basin,
-               const Room& room, const Visit& visit) {
+}  // namespace
+
+template <class T, class Number>
+void label_zones(std::span<const T> samples, const HeavyPathDecomposition<Number, ComparisonValue<T>>& paths,
+                 std::span<Number> basin_to_zone, std::span<Number> counts) {
     using Value = ComparisonValue<T>;
+    Tally<Number> tally(counts);
     const std::size_t together = block_size();
     std::vector<Value> value(together);
     std::vector<Number> maximum(together);
@@ -67,43 +69,17 @@ void for_zones(std::span<const T> samples, const HeavyPathDecomposition<Number, 
         const std::size_t first = block * together, count = std::min(together, samples.size() - first);
         for (std::size_t i = 0; i < count; ++i) {
             value[i] = static_cast<Value>(samples[first + i]);
-            maximum[i] = Basins<Number>::number(basin[first + i]);
+            maximum[i] = Basins<Number>::number(basin_to_zone[first + i]);
         }
-        const std::span<Number> zones = room(first, count);
+        const std::span<Number> zones = basin_to_zone.subspan(first, count);
         paths.zones({value.data(), count}, {maximum.data(), count}, scratch, zones);
-        visit(zones);
+        tally.add(zones);
     }
-}
-
-}  // namespace
-
-template <class T, class Number>
-void label_zones(std::span<const T> samples, const HeavyPathDecomposition<Number, ComparisonValue<T>>& paths,
-                 std::span<Number> basin_to_zone, std::span<Number> counts) {
-    Tally<Number> tally(counts);
-    for_zones<T, Number>(
-        samples, paths, basin_to_zone, [&](std::size_t first, std::size_t count) { return basin_to_zone.subspan(first, count); },
-        [&](std::span<const Number> zones) { tally.add(zones); });
-    tally.finish();
-}
-
-template <class T, class Number>
-void count_zones(std::span<const T> samples, const HeavyPathDecomposition<Number, ComparisonValue<T>>& paths, std::span<const Number> basin,
-                 std::span<Number> counts) {
-    Tally<Number> tally(counts);
-    std::vector<Number> block(block_size());
-    for_zones<T, Number>(
-        samples, paths, basin, [&](std::size_t, std::size_t count) { return std::span(block).first(count); },
-        [&](std::span<const Number> zones) { tally.add(zones); });
     tally.finish();
 }
 
 // NOLINTBEGIN(bugprone-macro-parentheses): T is a type
 #define ISOATLAS_LABEL(T)                                                                                                             \
-    template void count_zones<T, std::uint32_t>(std::span<const T>, const HeavyPathDecomposition<std::uint32_t, ComparisonValue<T>>&, \
-                                                std::span<const std::uint32_t>, std::span<std::uint32_t>);                            \
-    template void count_zones<T, std::uint64_t>(std::span<const T>, const HeavyPathDecomposition<std::uint64_t, ComparisonValue<T>>&, \
-                                                std::span<const std::uint64_t>, std::span<std::uint64_t>);                            \
     template void label_zones<T, std::uint32_t>(std::span<const T>, const HeavyPathDecomposition<std::uint32_t, ComparisonValue<T>>&, \
                                                 std::span<std::uint32_t>, std::span<std::uint32_t>);                                  \
     template void label_zones<T, std::uint64_t>(std::span<const T>, const HeavyPathDecomposition<std::uint64_t, ComparisonValue<T>>&, \

@@ -74,8 +74,9 @@ void check(const Grid& grid, isoatlas::Interpolant interpolant, isoatlas::ValueT
         for (const Index tile : tiles) {
             const isoatlas::Context context = context_of(1 + static_cast<int>(tile % 2), tile);
             isoatlas::ContourArcs arcs = isoatlas::compute_arcs(volume, options, context);
-            const auto counted = std::get<0>(isoatlas::count_voxels(arcs, volume, context));
-            const auto& found = std::get<0>(arcs.arrays);
+            const isoatlas::ElementVoxels all_counted = isoatlas::count_voxels(arcs, volume, context);
+            const auto& counted = std::get<0>(all_counted);
+            auto& found = std::get<0>(arcs.arrays);
             RC_ASSERT(found.value == arrays.value && found.code == arrays.code);
             RC_ASSERT(found.contours.other == arrays.contours.other);
             RC_ASSERT(std::ranges::equal(counted.items(), voxels));
@@ -85,8 +86,10 @@ void check(const Grid& grid, isoatlas::Interpolant interpolant, isoatlas::ValueT
             RC_ASSERT(isoatlas::restore_trees(restored, grid.rank, context_of(1, 0)));
             isoatlas::add_up_voxels<Id>(counted, restored);
             RC_ASSERT(restored.voxels == arrays.voxels);
-            const isoatlas::Analysis made = isoatlas::make_analysis(std::move(arcs), volume, context);
+            if (*rc::gen::arbitrary<bool>()) found.element = {};  // as a build that goes on from its trees
+            const isoatlas::Analysis made = isoatlas::make_analysis(std::move(arcs), all_counted, volume, context);
             RC_ASSERT(std::get<0>(made.data().arrays)->arrays.zone == arrays.zone);
+            RC_ASSERT(std::get<0>(made.data().arrays)->arrays.voxels == arrays.voxels);
         }
     }
 }
