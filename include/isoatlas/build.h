@@ -8,6 +8,7 @@
 
 #include <chrono>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -35,6 +36,9 @@ struct BuildOptions {
     bool restart = false;  ///< discards finished phases
     /// Which volume of its file the reader reads, as in OpenOptions: recorded to compare phases and stores.
     std::optional<std::int64_t> time_step{};
+    /// Of both polarities: called with a store of the objects of high values alone, before those of low values are looked for. It is there
+    /// until the call returns. Not called where the budget needs a scratch file, or the disk has no room for that store.
+    std::function<void(const std::string& store, const Context& context)> high_values{};
     /// Marks the store as a by-product of a page, which may be rebuilt with other options. The mark changes no result.
     bool is_replaceable = false;
 };

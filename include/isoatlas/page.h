@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -28,6 +29,21 @@ struct PageReport {
     std::int64_t bytes = 0;     ///< of the page
 };
 
+/// What write_first_page() leaves for write_page(): pictures, tables and trees of objects of high values.
+class PageDraft {
+public:
+    PageDraft();
+    ~PageDraft();
+    PageDraft(const PageDraft&) = delete;
+    PageDraft& operator=(const PageDraft&) = delete;
+
+    struct Data;
+    [[nodiscard]] Data& data() { return *data_; }
+
+private:
+    std::unique_ptr<Data> data_;
+};
+
 struct PageOptions {
     std::int64_t top = 24;            ///< at most so many pictures of objects
     std::int64_t top_cavities = 12;   ///< and of cavities
@@ -43,7 +59,15 @@ struct PageOptions {
     /// Set: the page is written as soon as its first five pictures are there, and again with twice as many, until it is complete; called
     /// after each time with the number of pictures.
     std::function<void(std::int64_t)> partly_written{};
+    /// Of write_first_page() with the other options as here; nullptr: none. The page has the same bytes with and without it.
+    PageDraft* draft = nullptr;
 };
+
+/// A page of the objects of high values alone, until there is that of both polarities: with the pictures of its first five objects and no
+/// cavities. Leaves what it needed in draft. atlas: of high values, of the same samples as the store of both (BuildOptions::high_values).
+/// Calls options.partly_written. Of an image it does nothing. Throws and costs as write_page() until its first five pictures.
+void write_first_page(const std::string& path, const Atlas& atlas, const PageOptions& options, PageDraft& draft,
+                      const Context& context = {});
 
 /// Ranks the objects and cavities of a store, renders them and writes the page. Throws Error: usage (options), input (damaged store),
 /// resource (cannot be written), cancelled. Cost: that of Atlas::hierarchy() and

@@ -35,20 +35,20 @@ std::int64_t whole_voxel(const StoredWindow& window, std::int64_t voxel) {
     return window.window.whole.index(window.info.extent.voxel(voxel) + window.window.origin);
 }
 
+}  // namespace
+
 /// Queries on the trees alone.
-struct Trees {
+struct AtlasTrees {
     Analysis analysis;
     ActiveIndex active;
 
-    explicit Trees(Analysis made) : analysis(std::move(made)), active(analysis) {}
+    explicit AtlasTrees(Analysis made) : analysis(std::move(made)), active(analysis) {}
 };
-
-}  // namespace
 
 struct Atlas::Data {
     Container store;
     std::unique_ptr<StoredSamples> samples;
-    Lazy<std::unique_ptr<Trees>> trees;
+    Lazy<std::shared_ptr<const AtlasTrees>> trees;
     Lazy<LevelCensus> census;
     Lazy<ObjectTable> objects;
     mutable std::mutex mutex;
@@ -57,9 +57,10 @@ struct Atlas::Data {
     Data(const std::string& path, const AtlasOptions& options)
         : store(path, options.polarity, options.corrections), samples(stored_samples(store, options.cache_bytes)) {}
 
-    [[nodiscard]] const Trees& trees_now() const {
-        return *trees.get([this] { return std::make_unique<Trees>(analysis_of(store, {})); });
+    [[nodiscard]] std::shared_ptr<const AtlasTrees> shared_trees() const {
+        return trees.get([this] { return std::make_shared<const AtlasTrees>(analysis_of(store, {})); });
     }
+    [[nodiscard]] const AtlasTrees& trees_now() const { return *shared_trees(); }
 
     void count(const IoCounters& counters) {
         const std::lock_guard lock(mutex);
@@ -275,9 +276,13 @@ const LevelCensus& AtlasAccess::census(const Atlas& atlas) {
 void AtlasAccess::keep(const Atlas& atlas, Analysis analysis) {
     (void)atlas.data_->trees.get([&] {
         analysis.data().visit([](auto& held) { release(held.arrays.zone.items()); });
-        return std::make_unique<Trees>(std::move(analysis));
+        return std::make_shared<const AtlasTrees>(std::move(analysis));
     });
 }
+void AtlasAccess::keep(const Atlas& atlas, std::shared_ptr<const AtlasTrees> trees) {
+    (void)atlas.data_->trees.get([&] { return std::move(trees); });
+}
+std::shared_ptr<const AtlasTrees> AtlasAccess::trees(const Atlas& atlas) { return atlas.data_->shared_trees(); }
 
 const Container& AtlasAccess::store(const Atlas& atlas) { return atlas.data_->store; }
 StoredSamples& AtlasAccess::samples(const Atlas& atlas) { return *atlas.data_->samples; }

@@ -33,6 +33,7 @@ namespace {
 constexpr PhasePlan<8> kBuildPhases{{"read", "classify", "basins", "sort", "trees", "zones", "objects", "pack"}};
 constexpr const char* kTrees = "trees";
 constexpr const char* kZones = "zones";
+constexpr const char* kHighValues = "high-values";
 
 /// Between "read" and "pack", once for each polarity.
 constexpr int kRepeated = kBuildPhases.count() - 2;
@@ -129,6 +130,19 @@ private:
     std::span<std::byte> samples_;
 };
 
+/// A file that is removed in the end.
+class TemporaryStore {
+public:
+    explicit TemporaryStore(std::string path) : path_(std::move(path)) {}
+    ~TemporaryStore() { (void)file_system().remove(path_); }
+    TemporaryStore(const TemporaryStore&) = delete;
+    TemporaryStore& operator=(const TemporaryStore&) = delete;
+    [[nodiscard]] const std::string& path() const { return path_; }
+
+private:
+    std::string path_;
+};
+
 class Build {
 public:
     Build(const std::string& path, bool restart, PolarityChoice polarities, const Context& context)
@@ -146,14 +160,20 @@ public:
 
     [[nodiscard]] const std::string& scratch_folder() const { return folder_.path(); }
 
-    BuildReport run(PolarSamples& samples, const AnalysisOptions& options, const Contents& contents) {
+    using UseStore = std::function<void(const std::string& store, const Context& context)>;
+
+    /// high_values: BuildOptions::high_values, or empty.
+    BuildReport run(PolarSamples& samples, const AnalysisOptions& options, const Contents& contents, const UseStore& high_values) {
         std::vector<Part> parts;
-        for (const Polarity polarity : {Polarity::low, Polarity::high}) {  // the bricks that are packed are those of the file's samples
+        for (const Polarity polarity : {Polarity::high, Polarity::low}) {
             if (!holds(contents.polarities, polarity)) continue;
             pass_ = static_cast<int>(parts.size());
             parts.push_back(part_of(samples.as(polarity), options, contents));
+            const bool is_first_of_both = contents.polarities == PolarityChoice::both && polarity == Polarity::high;
+            if (is_first_of_both && high_values) lend(samples.as(polarity), contents, parts, high_values);
         }
-        pack(samples.as(Polarity::high), contents, parts);
+        std::ranges::reverse(parts);                        // as they lie in the file
+        pack(samples.as(Polarity::high), contents, parts);  // the bricks are those of the file's samples
         return report_;
     }
 
@@ -210,8 +230,20 @@ private:
         return found;
     }
 
-    void pack(const VolumeView& volume, const Contents& contents, const std::vector<Part>& parts) {
-        std::vector<PackedArray> arrays = brick_arrays(volume, context_);
+    /// A store of high values, while it is used.
+    void lend(const VolumeView& volume, Contents contents, const std::vector<Part>& parts, const UseStore& use) {
+        contents.polarities = PolarityChoice::high;
+        Context quiet = context_;
+        quiet.progress = nullptr;
+        const TemporaryStore store(folder_.file(kHighValues));
+        pack_store(store.path(), contents, arrays_of(volume, parts, quiet));
+        use(store.path(), quiet);
+        trim_memory_pool();
+    }
+
+    [[nodiscard]] static std::vector<PackedArray> arrays_of(const VolumeView& volume, const std::vector<Part>& parts,
+                                                            const Context& context) {
+        std::vector<PackedArray> arrays = brick_arrays(volume, context);
         for (const Part& part : parts) {
             const auto add = [&](std::vector<PackedArray> more) {
                 for (PackedArray& array : more) {
@@ -223,6 +255,11 @@ private:
             for (const Container* phase : {part.trees.get(), part.zones.get()}) add(copied_arrays(*phase));
             add(census_arrays(*part.census));
         }
+        return arrays;
+    }
+
+    void pack(const VolumeView& volume, const Contents& contents, const std::vector<Part>& parts) {
+        std::vector<PackedArray> arrays = arrays_of(volume, parts, context_);
         report_packing(arrays, context_);
         report_.bytes = pack_store(path_, contents, arrays);
         if (!folder_.remove()) report_.left_behind = folder_.path();
@@ -261,7 +298,8 @@ BuildReport build_atlas(const std::string& path, VolumeReader& reader, const Bui
     Contents contents = contents_of(volume, analysis, std::move(fingerprint), summed.sum(), options.polarities);
     contents.is_replaceable = options.is_replaceable;
     PolarSamples both(info, samples);
-    return build.run(both, analysis, contents);
+    const bool has_room = !estimate.uses_scratch && estimate.disk_free - estimate.disk > estimate.store_bytes;
+    return build.run(both, analysis, contents, has_room ? options.high_values : nullptr);
 }
 
 BuildReport build_atlas(const std::string& path, const Volume& volume, const AnalysisOptions& options, const Context& context,
@@ -280,7 +318,7 @@ BuildReport build_atlas(const std::string& path, const Volume& volume, const Ana
     const Contents contents =
         contents_of(file, options, header_fingerprint(file.info, asked, options.tunnel_height), std::nullopt, polarities);
     PolarSamples both(file.info, {const_cast<std::byte*>(file.bytes.data()), file.bytes.size()});
-    return Build(path, false, polarities, context).run(both, options, contents);
+    return Build(path, false, polarities, context).run(both, options, contents, nullptr);
 }
 
 }  // namespace isoatlas

@@ -68,7 +68,7 @@ void draw_cards(std::size_t cards, const std::function<void(std::size_t, const C
     for (std::size_t begin = 0, end = kFirstCards; begin < cards; begin = end, end *= 2) {
         const std::size_t last = std::min(end, cards);
         all.each(begin, last, draw);
-        if (last < cards) drawn(last);
+        drawn(last);
     }
 }
 

@@ -23,8 +23,8 @@ struct CardPicture {
 [[nodiscard]] CardPicture draw_card(Surface surface, const Colour& colour, const PageOptions& options, const Context& context);
 
 /// Calls draw(i, context) for every card, two at a time, each with half of the threads; with a memory budget one at a time, as surfaces are
-/// large. drawn(n): the first n cards are there, n = kFirstCards and twice as many each time, but not at the end. Calls context.progress
-/// and context.cancelled on the calling thread only. Throws Error: cancelled.
+/// large. drawn(n): the first n cards are there, n = kFirstCards and twice as many each time, in the end all. Calls context.progress and
+/// context.cancelled on the calling thread only. Throws Error: cancelled.
 void draw_cards(std::size_t cards, const std::function<void(std::size_t, const Context&)>& draw,
                 const std::function<void(std::size_t)>& drawn, const Context& context);
 

@@ -4,6 +4,7 @@
 #include <map>
 
 #include "base/cancel.h"
+#include "catalogue/at_once.h"
 #include "isoatlas/both_polarities.h"
 #include "isoatlas/locate.h"
 
@@ -52,8 +53,10 @@ void add_branches(PageContents& joined, std::vector<PageBranch> more) {
 PageContents joined_contents(const StoreSides& sides, const Overview& high, const Overview& low, const PageOptions& options,
                              const Context& context) {
     const std::vector<RankedObject> list = ranked(sides, high, low, options, context);
-    PageContents joined = contents_of(sides.main, high, options, list, context);
-    PageContents of_low = contents_of(*sides.low, low, options, list, context);
+    PageContents joined, of_low;
+    at_once(
+        context, [&](const Context& own) { joined = contents_of(sides.main, high, options, list, own); },
+        [&](const Context& own) { of_low = contents_of(*sides.low, low, options, list, own); });
     const auto behind = static_cast<std::int64_t>(joined.branches.size());
     const std::vector<PageEntry> of_high = std::move(joined.entries);
     joined.entries.clear();

@@ -2,6 +2,8 @@
 
 #include <unordered_map>
 
+#include "atlas/access.h"
+#include "catalogue/at_once.h"
 #include "isoatlas/handles.h"
 
 namespace isoatlas {
@@ -20,19 +22,15 @@ std::unordered_map<EventId, std::size_t> branches_of_events(const PageContents& 
     return branch_of;
 }
 
-}  // namespace
+/// Of one side of a store, whose objects have this noise.
+FoundHandles handles_of(const Atlas& atlas, double noise, const Context& context) {
+    const double min = noise_height(noise, atlas.info().extent.voxels());
+    return find_handles(atlas.info(), AtlasAccess::analysis(atlas), min, [&] { return atlas.volume(context); }, context);
+}
 
-void add_tunnels(PageContents& contents, const Atlas& atlas, const Context& context) {
-    if (atlas.info().extent.rank != 3) return;
-    Context silent = context;
-    silent.progress = nullptr;
-    const Analysis analysis = atlas.analysis();
-    const Polarity polarity = polarity_of(atlas.info());
-    const bool is_second = contents.low && polarity == Polarity::low;
-    const double min = noise_height(is_second ? contents.low->noise : contents.noise, atlas.info().extent.voxels());
-    const FoundHandles found = find_handles(atlas.info(), analysis, min, [&] { return atlas.volume(silent); }, silent);
-    contents.exact_tunnels = found.exact && (!is_second || contents.exact_tunnels);
-    const std::unordered_map<EventId, std::size_t> branch_of = branches_of_events(contents, analysis, polarity);
+void add(PageContents& contents, const Atlas& atlas, const FoundHandles& found) {
+    const std::unordered_map<EventId, std::size_t> branch_of =
+        branches_of_events(contents, AtlasAccess::analysis(atlas), polarity_of(atlas.info()));
     for (const Handle& handle : found.handles) {  // by descending persistence
         const auto place = branch_of.find(handle.event);
         if (place == branch_of.end()) continue;
@@ -40,6 +38,23 @@ void add_tunnels(PageContents& contents, const Atlas& atlas, const Context& cont
         ++branch.significant_tunnels;
         if (branch.tunnels.size() < kMax) branch.tunnels.push_back({handle.opens, handle.closes});
     }
+}
+
+}  // namespace
+
+void add_tunnels(PageContents& contents, const StoreSides& sides, const Context& context) {
+    if (sides.main.info().extent.rank != 3) return;
+    FoundHandles main{}, low{};
+    at_once(
+        context, [&](const Context& own) { main = handles_of(sides.main, contents.noise, own); },
+        [&](const Context& own) {
+            if (sides.has_both()) low = handles_of(*sides.low, contents.low->noise, own);
+        });
+    add(contents, sides.main, main);
+    contents.exact_tunnels = main.exact;
+    if (!sides.has_both()) return;
+    add(contents, *sides.low, low);
+    contents.exact_tunnels = main.exact && low.exact;
 }
 
 }  // namespace isoatlas

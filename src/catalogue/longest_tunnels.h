@@ -5,7 +5,7 @@
 
 namespace isoatlas {
 
-/// Of a 3D volume, for the branches of the polarity of the atlas that have entries. Cost: find_handles() (isoatlas/handles.h).
-void add_tunnels(PageContents& contents, const Atlas& atlas, const Context& context);
+/// Of a 3D volume, for the branches that have entries. Cost: find_handles() (isoatlas/handles.h), of both sides at the same time.
+void add_tunnels(PageContents& contents, const StoreSides& sides, const Context& context);
 
 }  // namespace isoatlas

@@ -11,6 +11,7 @@
 #include "base/cancel.h"
 #include "catalogue/draw_cards.h"
 #include "catalogue/page_axis.h"
+#include "catalogue/page_draft.h"
 #include "catalogue/thin_curve.h"
 #include "census/count_intervals.h"
 #include "isoatlas/cards.h"
@@ -250,6 +251,17 @@ void draw_slices(PageContents& contents, const StoreSides& sides, const PageOpti
 
 }  // namespace
 
+void draw_first_pictures(PageContents& contents, const Atlas& atlas, const PageOptions& options, PageDraft::Data& draft,
+                         const Context& context) {
+    const auto draw = [&](std::size_t i, const Context& own) {
+        PageEntry& entry = contents.entries[i];
+        CardPicture card = draw_card(surface_of(atlas, false, entry, own), entry.colour, options, own);
+        entry.picture = card.picture;
+        draft.keep({entry.id, entry.tau, entry.number}, std::move(card));
+    };
+    draw_cards(std::min(kFirstCards, contents.entries.size()), draw, [](std::size_t) {}, context);
+}
+
 std::vector<CoarseSurface> draw_pictures(PageContents& contents, const StoreSides& sides, const PageOptions& options,
                                          const std::function<void(std::size_t)>& drawn, const Context& context) {
     if (sides.main.info().extent.rank == 2) {
@@ -262,11 +274,17 @@ std::vector<CoarseSurface> draw_pictures(PageContents& contents, const StoreSide
         return surface_of(sides.of(branch.polarity), branch.is_cavity, entry, own);
     };
     std::vector<std::optional<CoarseSurface>> coarse(contents.entries.size());
+    const auto drawn_before = [&](const PageEntry& entry) -> std::optional<CardPicture> {
+        const PageBranch& branch = contents.branches[entry.branch];
+        if (options.draft == nullptr || branch.is_cavity || branch.polarity == Polarity::low) return std::nullopt;
+        return options.draft->data().take({entry.id, entry.tau, entry.number});
+    };
     const auto draw = [&](std::size_t i, const Context& own) {
         PageEntry& entry = contents.entries[i];
-        CardPicture card = draw_card(surface(i, own), entry.colour, options, own);
-        entry.picture = std::move(card.picture);
-        coarse[i] = std::move(card.coarse);
+        std::optional<CardPicture> card = drawn_before(entry);
+        if (!card) card = draw_card(surface(i, own), entry.colour, options, own);
+        entry.picture = std::move(card->picture);
+        coarse[i] = std::move(card->coarse);
     };
     draw_cards(coarse.size(), draw, drawn, context);
     return coarse_cards(std::move(coarse), surface, context);

@@ -99,8 +99,11 @@ struct PageContents {
 [[nodiscard]] PageContents page_contents(const Atlas& atlas, const Overview& found, const PageOptions& options, const Context& context);
 /// The surface of an entry of a 3D volume. is_cavity: its id is that of a contour. Cost: Atlas::extract().
 [[nodiscard]] Surface surface_of(const Atlas& atlas, bool is_cavity, const PageEntry& entry, const Context& context);
-/// A picture of every entry, in their order. Returns the coarse surfaces of the entries, for page_meshes(); none of a 2D volume.
-/// drawn: as of draw_cards(). Cost: a surface each, drawn options.frames times.
+/// Pictures of the first kFirstCards entries, all objects of high values, also kept in draft. Cost and errors as draw_pictures().
+void draw_first_pictures(PageContents& contents, const Atlas& atlas, const PageOptions& options, PageDraft::Data& draft,
+                         const Context& context);
+/// A picture of every entry that options.draft does not have, in their order. Returns the coarse surfaces of the entries, for
+/// page_meshes(); none of a 2D volume. drawn: as of draw_cards(). Cost: a surface each, drawn options.frames times.
 [[nodiscard]] std::vector<CoarseSurface> draw_pictures(PageContents& contents, const StoreSides& sides, const PageOptions& options,
                                                        const std::function<void(std::size_t)>& drawn, const Context& context);
 

@@ -75,6 +75,16 @@ class Atlas(harness.CliTest):
             self.assertTrue(entry["mesh"]["keepsTopology"])
             self.assertLessEqual(entry["mesh"]["triangles"], min(30_000, entry["mesh"]["of"]))
 
+    def test_a_page_from_a_volume_is_that_from_its_store(self):
+        """The first has drawn objects of high values before there were those of low ones."""
+        for top in ("3", "24"):
+            told = self.run_ok("demo.nrrd", "-o", "twice.html", "--top", top, "--restart").stderr
+            self.assertEqual(told.count("open it now"), 1)
+            first = self.page("twice.html")[0]
+            self.assertIn("exists and is used", self.run_ok("demo.nrrd", "-o", "twice.html", "--top", top).stderr)
+            self.assertEqual(self.page("twice.html")[0], first)
+        self.assertFalse((self.folder / "twice.atlas.build").exists())
+
     def test_lines_that_look_the_same_share_a_card(self):
         table = self.run_json("objects", "shells.nrrd")["objects"]
         lines = [line["like"] and line["like"]["line"] for line in table]

@@ -2,6 +2,10 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
+#include <filesystem>
+#include <fstream>
+#include <stdexcept>
+
 #include "isoatlas/navigator.h"
 #include "isoatlas/phantom.h"
 #include "isoatlas/simplify.h"
@@ -104,6 +108,66 @@ TEST_F(Stores, OfBothPolaritiesHoldTheHighSideUnchanged) {
         expect_answers_of(atlas, polarity == Polarity::high ? volume : isoatlas::negated(volume), {});
         for (const isoatlas::CheckResult& check : isoatlas::verify_atlas(atlas, {.levels = 3, .full = true}))
             EXPECT_TRUE(check.holds) << check.name << ": " << check.detail;
+    }
+}
+
+/// A volume in memory, read as a file is.
+class MemoryReader final : public isoatlas::VolumeReader {
+public:
+    explicit MemoryReader(const Volume& volume) : bytes_(volume.bytes.begin(), volume.bytes.end()) { info_ = volume.info; }
+    void read(Index z_begin, Index z_end, std::span<std::byte> out) override {
+        const auto slice = static_cast<Index>(size_of(info_.type)) * info_.extent.slice();
+        std::copy(bytes_.begin() + slice * z_begin, bytes_.begin() + slice * z_end, out.begin());
+    }
+
+private:
+    std::vector<std::byte> bytes_;
+};
+
+std::string text_of(const std::string& path) {
+    std::ifstream file(path, std::ios::binary);
+    return {std::istreambuf_iterator<char>(file), {}};
+}
+
+RC_GTEST_FIXTURE_PROP(Stores, OfBothPolaritiesAreLentWithTheHighSideFirst, ()) {
+    const Grid grid = arbitrary_volume();
+    const Volume volume = to_volume(grid, arbitrary_type(grid));
+    MemoryReader reader(volume);
+    isoatlas::BuildOptions options{.polarities = PolarityChoice::both};
+    isoatlas::build_atlas(path_, reader, options);
+    const std::string plain = text_of(path_);
+    std::string lent;
+    options.high_values = [&](const std::string& store, const isoatlas::Context&) {
+        lent = store;
+        const Atlas atlas(store);
+        EXPECT_EQ(atlas.polarities(), PolarityChoice::high);
+        expect_answers_of(atlas, volume, {});
+    };
+    isoatlas::build_atlas(path_, reader, options, arbitrary_context());
+    RC_ASSERT(!lent.empty());
+    RC_ASSERT(!std::filesystem::exists(lent));
+    RC_ASSERT(text_of(path_) == plain);
+    RC_ASSERT(!testing::Test::HasFailure());
+}
+
+TEST_F(Stores, ABuildEndsWithTheErrorOfWhoeverIsLentOne) {
+    MemoryReader reader(isoatlas::make_phantom("demo", {.size = 32}));
+    isoatlas::BuildOptions options{.polarities = PolarityChoice::both};
+    options.high_values = [](const std::string&, const isoatlas::Context&) { throw std::runtime_error("no page"); };
+    EXPECT_THROW(isoatlas::build_atlas(path_, reader, options), std::runtime_error);
+    EXPECT_FALSE(std::filesystem::exists(path_));
+    EXPECT_FALSE(std::filesystem::exists(path_ + ".build/high-values"));
+    options.high_values = nullptr;
+    EXPECT_EQ(isoatlas::build_atlas(path_, reader, options).resumed, (std::vector<std::string>{"trees", "zones"}));
+    EXPECT_FALSE(std::filesystem::exists(path_ + ".build"));
+}
+
+TEST_F(Stores, OfOnePolarityAreNotLent) {
+    MemoryReader reader(isoatlas::make_phantom("demo", {.size = 32}));
+    for (const PolarityChoice choice : {PolarityChoice::high, PolarityChoice::low}) {
+        isoatlas::BuildOptions options{.polarities = choice};
+        options.high_values = [](const std::string& store, const isoatlas::Context&) { FAIL() << store; };
+        isoatlas::build_atlas(path_, reader, options);
     }
 }
 

@@ -110,7 +110,8 @@ std::string store_beside(const std::string& page) {
     return store.ends_with(".atlas") ? store : store + ".atlas";
 }
 
-std::string store_for(const Arguments& arguments, Terminal& terminal, const std::string& store) {
+std::string store_for(const Arguments& arguments, Terminal& terminal, const std::string& store,
+                      const std::function<void(const std::string&, const Context&)>& high_values) {
     if (is_atlas(arguments.file)) {
         check_store_options(arguments, Atlas(arguments.file, AtlasOptions{.polarity = arguments.side()}));
         return arguments.file;
@@ -118,7 +119,7 @@ std::string store_for(const Arguments& arguments, Terminal& terminal, const std:
     if (!arguments.restart && is_usable(store, arguments, terminal)) return store;
     Arguments build = arguments;
     build.output = store;
-    build_store(build, terminal, *open_volume(arguments.file, arguments.open));
+    build_store(build, terminal, *open_volume(arguments.file, arguments.open), {}, high_values);
     return store;
 }
 

@@ -4,6 +4,7 @@
 // difference. A store that the user has built (`isoatlas build`) is never replaced without --restart: there a difference is an error.
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -41,7 +42,8 @@ struct Beside {
 /// replaced.
 [[nodiscard]] bool is_usable(const std::string& store, const Arguments& arguments, Terminal& terminal);
 
-/// arguments.file if it is a store; else `store`, built from the volume unless it is usable.
-[[nodiscard]] std::string store_for(const Arguments& arguments, Terminal& terminal, const std::string& store);
+/// arguments.file if it is a store; else `store`, built from the volume unless it is usable. high_values: BuildOptions::high_values.
+[[nodiscard]] std::string store_for(const Arguments& arguments, Terminal& terminal, const std::string& store,
+                                    const std::function<void(const std::string&, const Context&)>& high_values);
 
 }  // namespace isoatlas::cli

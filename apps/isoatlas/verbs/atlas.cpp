@@ -57,7 +57,26 @@ int run_atlas(const Arguments& arguments, Terminal& terminal) {
     if (arguments.inputs.are_labels) return run_label_page(arguments, terminal);
     const std::string page = arguments.output.empty() ? stem_of(arguments) + ".atlas.html" : arguments.output;
     check_output(arguments, page, {".html"});
-    const std::string store = store_for(arguments, terminal, store_beside(page));
+    const std::function<void(std::int64_t)> tell = tell_first_pictures(terminal, page);
+    PageDraft draft;
+    const auto options_of = [&](const Atlas& atlas, const std::string& source) {
+        const std::int64_t top = arguments.top > 0 ? arguments.top : 24;
+        return PageOptions{
+            .top = top,
+            .top_cavities = (top + 1) / 2,
+            .names = names_in(object_names_path(source, polarity_of(atlas.info())), atlas.info().extent, terminal),
+            .source = source,
+            .notes = notes_of(arguments, atlas),
+            .smoothing = smoothing_of(arguments, atlas.info(), page),
+            .partly_written = [&tell](std::int64_t pictures) { tell(pictures); },
+            .draft = &draft,
+        };
+    };
+    const auto write_first = [&](const std::string& high, const Context& context) {
+        const Atlas atlas(high);
+        write_first_page(page, atlas, options_of(atlas, store_beside(page)), draft, context);
+    };
+    const std::string store = store_for(arguments, terminal, store_beside(page), write_first);
     const bool is_volume = store != arguments.file;
     const Atlas atlas(store, {.polarity = arguments.side(), .corrections = is_volume ? Corrections{} : corrections_of(arguments)});
     std::optional<Atlas> low;  // of a store of both
@@ -68,17 +87,11 @@ int run_atlas(const Arguments& arguments, Terminal& terminal) {
     {
         Session session(arguments, terminal);
         const WritingGuard guard;
-        const std::int64_t top = arguments.top > 0 ? arguments.top : 24;
-        const auto names = [&](Polarity side) { return names_in(object_names_path(store, side), atlas.info().extent, terminal); };
-        const PageOptions options{.top = top,
-                                  .top_cavities = (top + 1) / 2,
-                                  .names = names(polarity_of(atlas.info())),
-                                  .low = low ? &*low : nullptr,
-                                  .low_names = low ? names(Polarity::low) : std::vector<ObjectName>{},
-                                  .source = store,
-                                  .notes = notes_of(arguments, atlas),
-                                  .smoothing = smoothing_of(arguments, atlas.info(), page),
-                                  .partly_written = tell_first_pictures(terminal, page)};
+        PageOptions options = options_of(atlas, store);
+        if (low) {
+            options.low = &*low;
+            options.low_names = names_in(object_names_path(store, Polarity::low), atlas.info().extent, terminal);
+        }
         report = write_page(page, atlas, options, session.context());
     }
     if (arguments.json) {

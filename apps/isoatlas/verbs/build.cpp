@@ -156,7 +156,8 @@ BuildOptions build_options(const Arguments& arguments, const VolumeInfo& info) {
 }
 
 BuildReport build_store(const Arguments& arguments, Terminal& terminal, VolumeReader& reader,
-                        const std::function<void(const Progress&)>& watch) {
+                        const std::function<void(const Progress&)>& watch,
+                        const std::function<void(const std::string&, const Context&)>& high_values) {
     check_missing_of_both(arguments);
     BuildReport report;
     {
@@ -167,7 +168,9 @@ BuildReport build_store(const Arguments& arguments, Terminal& terminal, VolumeRe
             if (watch) watch(progress);
         };
         const WritingGuard guard("stopped: finished phases are kept; the same command resumes, --restart starts over");
-        report = build_atlas(arguments.output, reader, build_options(arguments, reader.info()), context);
+        BuildOptions options = build_options(arguments, reader.info());
+        options.high_values = high_values;
+        report = build_atlas(arguments.output, reader, options, context);
     }
     for (const std::string& note : reader.info().notes) terminal.say("note: " + note);
     for (const std::string& phases : report.not_used) terminal.say("note: " + phases);

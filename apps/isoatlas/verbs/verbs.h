@@ -32,9 +32,10 @@ int run_render(const Arguments& arguments, Terminal& terminal);
 int run_animate(const Arguments& arguments, Terminal& terminal);
 /// Build options of a volume.
 [[nodiscard]] BuildOptions build_options(const Arguments& arguments, const VolumeInfo& info);
-/// Builds arguments.output and prints its notes. watch: receives the progress too; may be empty.
+/// Builds arguments.output and prints its notes. watch: receives the progress too; may be empty. high_values: BuildOptions::high_values.
 BuildReport build_store(const Arguments& arguments, Terminal& terminal, VolumeReader& reader,
-                        const std::function<void(const Progress&)>& watch = {});
+                        const std::function<void(const Progress&)>& watch = {},
+                        const std::function<void(const std::string&, const Context&)>& high_values = {});
 int run_build(const Arguments& arguments, Terminal& terminal);
 int run_name(const Arguments& arguments, Terminal& terminal);
 int run_label(const Arguments& arguments, Terminal& terminal);
