@@ -33,12 +33,13 @@ enum class ZoneLayout : std::uint8_t { by_zone, by_path };
 struct ZoneFileOptions {
     std::int64_t block_bytes = 4096;  ///< 512 to 65536, a power of two
     ZoneLayout layout = ZoneLayout::by_path;
-    std::int64_t max_entries = std::int64_t{1} << 27;  ///< more are refused, by zone before any is made
+    std::int64_t max_entries = std::int64_t{1} << 28;  ///< more are refused, by zone before any is made
 };
 
 /// Writes the lists of all cells. analysis: of the volume, with zones. Throws Error: usage (block size; no zones; another volume), resource
-/// (2^32 cells or more, more entries than allowed, the disk), cancelled. Cost: a sort of the entries; 12 to 32 bytes an entry, and several
-/// times the longest list with its samples.
+/// (2^32 cells or more, more entries than allowed, the disk), cancelled. Cost: a sort of the entries, for each interval tree those of
+/// write_interval_tree(); 24 to 96 bytes an entry and three copies of the longest list, in the scratch file where the environment has a
+/// budget (context.h). The same bytes with any budget and for any threads.
 void write_zone_files(const std::string& path, const Volume& volume, const Analysis& analysis, const ZoneFileOptions& options = {},
                       const Context& context = {});
 

@@ -18,16 +18,37 @@ struct StreamPlace {
     std::int64_t first = 0, bytes = 0;
 };
 
-/// Adds the blocks.
-inline StreamPlace write_stream(BlockWriter& file, std::span<const std::byte> bytes) {
-    const auto in_block = static_cast<std::size_t>(file.payload_bytes());
-    StreamPlace place{0, static_cast<std::int64_t>(bytes.size())};
-    for (std::size_t at = 0; at < bytes.size(); at += in_block) {
-        const std::int64_t block = file.add(bytes.subspan(at, std::min(in_block, bytes.size() - at)));
-        if (at == 0) place.first = block;
+/// Numbers one after another into blocks: a PayloadWriter of any length.
+class StreamWriter {
+public:
+    explicit StreamWriter(BlockWriter& file) : file_(file), place_{file.blocks(), 0} {}
+    template <class T>
+    void put(T value) {
+        std::span<const std::byte> bytes = std::as_bytes(std::span(&value, 1));
+        place_.bytes += std::ssize(bytes);
+        for (const auto in_block = static_cast<std::size_t>(file_.payload_bytes()); !bytes.empty();) {
+            const auto some = bytes.first(std::min(bytes.size(), in_block - block_.size()));
+            block_.insert(block_.end(), some.begin(), some.end());
+            bytes = bytes.subspan(some.size());
+            if (block_.size() == in_block) flush();
+        }
     }
-    return place;
-}
+    /// After the last number.
+    [[nodiscard]] StreamPlace finish() {
+        if (!block_.empty()) flush();
+        return place_;
+    }
+
+private:
+    void flush() {
+        (void)file_.add(block_);
+        block_.clear();
+    }
+
+    BlockWriter& file_;
+    StreamPlace place_;
+    std::vector<std::byte> block_;
+};
 
 /// Throws Error{input}: it lies outside of the file, damaged.
 inline std::vector<std::byte> read_stream(const BlockReader& file, const StreamPlace& place) {
@@ -44,9 +65,9 @@ inline std::vector<std::byte> read_stream(const BlockReader& file, const StreamP
 
 /// Texts and arrays: their length, then what they hold.
 template <class Array>
-void put_array(PayloadWriter& payload, const Array& array) {
-    payload.put(static_cast<std::int64_t>(array.size()));
-    for (const auto& item : array) payload.put(item);
+void put_array(StreamWriter& stream, const Array& array) {
+    stream.put(static_cast<std::int64_t>(array.size()));
+    for (const auto& item : array) stream.put(item);
 }
 template <class Array>
 void get_array(PayloadReader& payload, const BlockReader& file, Array& array) {

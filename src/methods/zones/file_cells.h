@@ -7,26 +7,16 @@
 #include <cstdint>
 #include <limits>
 #include <span>
-#include <string>
 #include <vector>
 
 #include "base/cancel.h"
+#include "base/parallel.h"
 #include "census/waiting_voxels.h"
-#include "isoatlas/error.h"
 #include "levelset/threshold.h"
-#include "methods/search/cell_grid.h"
+#include "methods/zones/filing_runs.h"
 #include "methods/zones/zone_tree.h"
 
 namespace isoatlas {
-
-/// A cell in the list of a node.
-template <class T>
-struct Filing {
-    ZoneNodeId node;
-    CellId cell;
-    T low, high;          ///< as of ZoneCell
-    std::uint8_t points;  ///< by zone: which of its corners are points of the zone, a bit each
-};
 
 /// The largest T that is at most a finite value, one of T's range.
 template <class T>
@@ -39,22 +29,15 @@ template <class T>
     }
 }
 
-/// A cell whose samples differ.
-template <class T>
-struct MixedCell {
-    CellId cell;
-    T low, high;
-};
-
 /// By zone: a corner is a point of the zones of its chains.
 template <class T>
-void file_by_zone(const EventChains& events, const MixedCell<T>& cell, std::span<const Tops* const> corners,
+void file_by_zone(const EventChains& events, const ZoneCell<T>& cell, std::span<const Tops* const> corners,
                   std::vector<Filing<T>>& filings) {
     const auto first = std::ssize(filings);
     for (std::size_t k = 0; k < corners.size(); ++k) {
         for (const EventId top : corners[k]->list()) {
             for (EventId e = top; e != corners[k]->end; e = events.below(e))
-                filings.push_back({ZoneNodeId(e.number()), cell.cell, cell.low, cell.high, static_cast<std::uint8_t>(1U << k)});
+                filings.push_back({cell, ZoneNodeId(e.number()), static_cast<std::uint8_t>(1U << k)});
         }
     }
     const auto own = std::span(filings).subspan(static_cast<std::size_t>(first));
@@ -73,24 +56,24 @@ void file_by_zone(const EventChains& events, const MixedCell<T>& cell, std::span
 /// by path, as long as that lies above the lowest sample. Ends of zones that are no samples are rounded to samples outwards: there the
 /// entry is reported twice, or the path is not active.
 /// node: per event. zone(k): that of corner k.
-template <class T, class Zone, class Sample>
-void file_by_path(const EventChains& events, std::span<const ZoneNodeId> node, const MixedCell<T>& cell, int corners, const Zone& zone,
-                  const Sample& sample, std::vector<Filing<T>>& filings) {
+template <class T, class Zone>
+void file_by_path(const EventChains& events, const IdArray<EventId, ZoneNodeId>& node, const ZoneCell<T>& cell, int corners,
+                  const Zone& zone, std::vector<Filing<T>>& filings) {
     const auto first = std::ssize(filings);
     const auto low = static_cast<double>(cell.low);
     for (int k = 0; k < corners; ++k) {
-        T high = sample(k);
+        T high = cell.samples[static_cast<std::size_t>(k)];
         if (!(cell.low < high)) continue;
         for (EventId e = zone(k);;) {
-            const ZoneNodeId path = node[e.index()];
+            const ZoneNodeId path = node[e];
             const auto there = std::find_if(filings.begin() + first, filings.end(), [&](const Filing<T>& f) { return f.node == path; });
             if (there != filings.end()) {  // from here on another corner has gone down
-                there->high = std::max(there->high, high);
+                there->cell.high = std::max(there->cell.high, high);
                 break;
             }
             const EventId next = events.below(events.head(e));
             const bool ends_above = next != events.end() && events.value(next) > low;
-            filings.push_back({path, cell.cell, ends_above ? at_most<T>(events.value(next)) : cell.low, high, 0xFF});
+            filings.push_back({{{ends_above ? at_most<T>(events.value(next)) : cell.low, high, cell.cell}, cell.samples}, path, 0xFF});
             if (!ends_above) break;
             high = threshold_for<T>(events.value(next)).min;
             e = next;
@@ -98,46 +81,76 @@ void file_by_path(const EventChains& events, std::span<const ZoneNodeId> node, c
     }
 }
 
-inline void refuse_if_too_many(std::int64_t entries, std::int64_t max, const std::string& path) {
-    if (entries <= max) return;
-    throw Error(ErrorKind::resource, {.where = path,
-                                      .what = "the lists would have " + std::to_string(entries) + " entries or more",
-                                      .expected = "at most " + std::to_string(max),
-                                      .next = "write them by path, or those of a smaller volume"});
+/// All are borrowed.
+struct FiledVolume {
+    const Volume& volume;
+    const Analysis& analysis;
+    const EventChains& events;
+    const IdArray<EventId, ZoneNodeId>& node;
+    ZoneLayout layout;
+};
+
+template <class T>
+[[nodiscard]] ZoneCell<T> zone_cell(std::span<const T> samples, std::span<const std::int64_t> corners, CellId id) {
+    ZoneCell<T> cell{{0, 0, id}, {}};
+    for (std::size_t k = 0; k < corners.size(); ++k) cell.samples[k] = samples[static_cast<std::size_t>(corners[k])];
+    const auto [low, high] = std::ranges::minmax(std::span(cell.samples).first(corners.size()));
+    cell.low = low, cell.high = high;
+    return cell;
 }
 
-/// Of all cells. node: per event. Throws Error{resource} for more than `max`.
-template <class T>
-[[nodiscard]] std::vector<Filing<T>> file_cells(const Volume& volume, const Analysis& analysis, const EventChains& events,
-                                                std::span<const ZoneNodeId> node, ZoneLayout layout, std::int64_t max,
-                                                const Context& context) {
-    const CellGrid<T> grid(volume.info.extent, volume.samples<T>());
+/// Files cells whose first corner lies in a slab. Calls add(filings) for all, some at a time, and clears them.
+template <class T, class Add>
+void file_slab(const FiledVolume& of, const Slab& slab, const Add& add) {
+    constexpr std::size_t kTogether = 4096;
+    const Extent& extent = of.volume.info.extent;
+    const std::span<const T> samples = of.volume.samples<T>();
+    const std::size_t touched = is_scratch(of.node.items().data()) ? BudgetPoll::kTouch : 0;
+    const CellGrid<T> grid(extent, samples);
     std::vector<Filing<T>> filings;
-    const WaitingVoxels voxels(volume, analysis, events);
-    std::int64_t number = 0;
-    const auto mixed = [&](CellId id) {
-        const std::array<T, 2> ends = grid.interval(grid.place(id));
-        return MixedCell<T>{id, ends[0], ends[1]};
+    BudgetPoll memory;
+    std::int64_t number = slab.z_begin * grid.size[0] * grid.size[1];
+    const auto flush = [&](std::size_t enough) {
+        if (filings.size() < enough) return;
+        add(std::span<const Filing<T>>(filings));
+        filings.clear();
     };
-    for (std::int64_t z = 0; z < volume.info.extent.size[2]; ++z) {
-        stop_if_cancelled(context);
-        const auto by_path = [&](std::span<const std::int64_t> corners) {
-            const MixedCell<T> cell = mixed(CellId(number++));
-            if (cell.low < cell.high)
-                file_by_path(
-                    events, node, cell, grid.corners(), [&](int k) { return analysis.zone(VoxelId(corners[static_cast<std::size_t>(k)])); },
-                    [&](int k) { return grid.samples[static_cast<std::size_t>(corners[static_cast<std::size_t>(k)])]; }, filings);
-        };
-        const auto by_zone = [&](std::span<const std::int64_t>, std::span<const Tops* const> tops) {
-            file_by_zone(events, mixed(CellId(number++)), tops, filings);
-        };
-        if (layout == ZoneLayout::by_path)
-            for_cells_of_slice(volume.info.extent, z, by_path);
-        else
-            voxels.run({z, z + 1}, [](const Tops&) {}, by_zone);
-        refuse_if_too_many(std::ssize(filings), max, volume.info.path);
+    const auto by_path = [&](std::span<const std::int64_t> corners) {
+        memory.step(in_order(3).bytes + touched);
+        const ZoneCell<T> cell = zone_cell(samples, corners, CellId(number++));
+        if (!(cell.low < cell.high)) return;
+        const auto zone = [&](int k) { return of.analysis.zone(VoxelId(corners[static_cast<std::size_t>(k)])); };
+        file_by_path(of.events, of.node, cell, grid.corners(), zone, filings);
+        flush(kTogether);
+    };
+    const auto by_zone = [&](std::span<const std::int64_t> corners, std::span<const Tops* const> tops) {
+        memory.step(in_order(3).bytes + touched);
+        file_by_zone(of.events, zone_cell(samples, corners, CellId(number++)), tops, filings);
+        flush(kTogether);
+    };
+    if (of.layout == ZoneLayout::by_zone) {
+        WaitingVoxels(of.volume, of.analysis, of.events).run(slab, [](const Tops&) {}, by_zone);
+    } else {
+        for (std::int64_t z = slab.z_begin; z < slab.z_end; ++z) for_cells_of_slice(extent, z, by_path);
     }
-    return filings;
+    flush(1);
+}
+
+/// Calls work(slab) for slabs of a volume, several at a time.
+template <class Work>
+void for_slabs_of_cells(const Extent& extent, const Context& context, const Work& work) {
+    constexpr std::int64_t kSlices = 8;
+    const CallerLooks look(context);
+    for_each_block(context.threads, (extent.size[2] + kSlices - 1) / kSlices, [&](std::int64_t block) {
+        look();
+        work(Slab{block * kSlices, std::min((block + 1) * kSlices, extent.size[2])});
+    });
+}
+
+/// Calls add(filings) for the filings of all cells, on several threads.
+template <class T, class Add>
+void file_cells(const FiledVolume& of, const Context& context, const Add& add) {
+    for_slabs_of_cells(of.volume.info.extent, context, [&](const Slab& slab) { file_slab<T>(of, slab, add); });
 }
 
 }  // namespace isoatlas

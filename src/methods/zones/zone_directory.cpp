@@ -6,16 +6,16 @@ namespace isoatlas {
 namespace {
 
 /// All that a surface needs beside samples.
-void put_info(PayloadWriter& payload, const VolumeInfo& info) {
-    payload.put(static_cast<std::int64_t>(info.type)), payload.put(std::int64_t{info.extent.rank});
-    for (int axis = 0; axis < 3; ++axis) payload.put(info.extent.size[axis]);
+void put_info(StreamWriter& stream, const VolumeInfo& info) {
+    stream.put(static_cast<std::int64_t>(info.type)), stream.put(std::int64_t{info.extent.rank});
+    for (int axis = 0; axis < 3; ++axis) stream.put(info.extent.size[axis]);
     const Geometry& geometry = info.geometry;
-    payload.put(geometry.spacing), payload.put(geometry.origin), payload.put(geometry.direction);
-    for (const auto& axis : geometry.coordinates) put_array(payload, axis);
-    put_array(payload, geometry.space), put_array(payload, geometry.unit);
+    stream.put(geometry.spacing), stream.put(geometry.origin), stream.put(geometry.direction);
+    for (const auto& axis : geometry.coordinates) put_array(stream, axis);
+    put_array(stream, geometry.space), put_array(stream, geometry.unit);
     const Calibration& calibration = info.calibration;
-    payload.put(calibration.slope), payload.put(calibration.intercept);
-    payload.put(std::int64_t{calibration.mirror.has_value()}), payload.put(calibration.mirror.value_or(0));
+    stream.put(calibration.slope), stream.put(calibration.intercept);
+    stream.put(std::int64_t{calibration.mirror.has_value()}), stream.put(calibration.mirror.value_or(0));
 }
 
 VolumeInfo get_info(PayloadReader& payload, const BlockReader& file) {
@@ -37,9 +37,9 @@ VolumeInfo get_info(PayloadReader& payload, const BlockReader& file) {
     return info;
 }
 
-void put_list(PayloadWriter& payload, const ZoneList& list) {
-    payload.put(list.node.number()), payload.put(list.filed), payload.put(list.count), payload.put(list.low), payload.put(list.high);
-    payload.put(list.place.levels), payload.put(list.place.root), put_range(payload, list.place.list);
+void put_list(StreamWriter& stream, const ZoneList& list) {
+    stream.put(list.node.number()), stream.put(list.filed), stream.put(list.count), stream.put(list.low), stream.put(list.high);
+    stream.put(list.place.levels), stream.put(list.place.root), stream.put(list.place.list.first), stream.put(list.place.list.count);
 }
 
 ZoneList get_list(PayloadReader& payload) {
@@ -54,20 +54,20 @@ ZoneList get_list(PayloadReader& payload) {
 
 }  // namespace
 
-void put_directory(PayloadWriter& payload, const ZoneDirectory& directory) {
-    put_info(payload, directory.info);
-    put_tree(payload, directory.tree);
-    payload.put(std::ssize(directory.lists));
-    for (const ZoneList& list : directory.lists) put_list(payload, list);
+void put_directory(StreamWriter& stream, const VolumeInfo& info, const EventChains& events, const Spool<ZoneList>& lists) {
+    put_info(stream, info);
+    put_tree(stream, events);
+    stream.put(static_cast<std::int64_t>(lists.size()));
+    lists.for_each([&](const ZoneList& list) { put_list(stream, list); });
 }
 
 ZoneDirectory get_directory(PayloadReader& payload, const BlockReader& file, ZoneLayout layout) {
     ZoneDirectory directory{get_info(payload, file), get_tree(payload, file), {}};
-    const std::vector<ZoneNodeId> nodes = node_of_events(directory.tree, layout);
+    const std::size_t nodes = nodes_of_events(directory.tree, layout).count;
     const auto lists = payload.get<std::int64_t>();
     for (std::int64_t i = 0; i < lists; ++i) {
         directory.lists.push_back(get_list(payload));
-        if (directory.lists.back().node.index() >= nodes.size()) file.fail("a list belongs to no zone");
+        if (directory.lists.back().node.index() >= nodes) file.fail("a list belongs to no zone");
         if (i > 0 && directory.lists.back().node < directory.lists[static_cast<std::size_t>(i - 1)].node)
             file.fail("the lists are out of order");
     }

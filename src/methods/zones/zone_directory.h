@@ -6,6 +6,7 @@
 
 #include "isoatlas/volume.h"
 #include "methods/disk/interval_tree_format.h"
+#include "methods/zones/spool.h"
 #include "methods/zones/zone_tree.h"
 
 namespace isoatlas {
@@ -31,7 +32,8 @@ inline constexpr std::string_view kZoneMagic = "isoatlas ZONES 1";
 /// Numbers of the header.
 inline constexpr std::size_t kZoneLayout = 0, kDirectory = 1, kDirectoryBytes = 2;
 
-void put_directory(PayloadWriter& payload, const ZoneDirectory& directory);
+/// lists: in the order of their nodes.
+void put_directory(StreamWriter& stream, const VolumeInfo& info, const EventChains& events, const Spool<ZoneList>& lists);
 /// Throws Error{input}: contents contradict each other.
 [[nodiscard]] ZoneDirectory get_directory(PayloadReader& payload, const BlockReader& file, ZoneLayout layout);
 

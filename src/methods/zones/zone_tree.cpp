@@ -4,22 +4,38 @@
 #include <numeric>
 #include <utility>
 
-#include "methods/zones/block_stream.h"
+#include "base/streamed.h"
 
 namespace isoatlas {
 
-StoredTree stored_tree(const EventChains& events) {
-    StoredTree tree;
-    for (const EventId e : ids<EventId>(events.size())) {
-        tree.values.push_back(events.value(e));
-        tree.parents.push_back(events.below(e).number());
-        tree.heads.push_back(events.head(e).number());
+namespace {
+
+/// head(e): of the heavy path of an event.
+template <class Head>
+NodesOfEvents number_nodes(std::size_t events, ZoneLayout layout, const Head& head) {
+    NodesOfEvents nodes{IdArray<EventId, ZoneNodeId>(events), 0};
+    for (const EventId e : streamed<EventId>(events, in_order(2))) {
+        if (layout == ZoneLayout::by_zone || head(e) == e) nodes.node[e] = ZoneNodeId(nodes.count++);
     }
-    return tree;
+    if (layout == ZoneLayout::by_path) {
+        for (const EventId e : streamed<EventId>(events, in_order(2))) nodes.node[e] = nodes.node[head(e)];
+    }
+    return nodes;
 }
 
-void put_tree(PayloadWriter& payload, const StoredTree& tree) {
-    put_array(payload, tree.values), put_array(payload, tree.parents), put_array(payload, tree.heads);
+/// A number of each event, as an array.
+template <class Number>
+void put_numbers(StreamWriter& stream, std::int64_t events, const Number& number) {
+    stream.put(events);
+    for (const EventId e : streamed<EventId>(static_cast<std::size_t>(events), in_order(1))) stream.put(number(e));
+}
+
+}  // namespace
+
+void put_tree(StreamWriter& stream, const EventChains& events) {
+    put_numbers(stream, events.size(), [&](EventId e) { return events.value(e); });
+    put_numbers(stream, events.size(), [&](EventId e) { return std::int64_t{events.below(e).number()}; });
+    put_numbers(stream, events.size(), [&](EventId e) { return std::int64_t{events.head(e).number()}; });
 }
 
 StoredTree get_tree(PayloadReader& payload, const BlockReader& file) {
@@ -36,20 +52,18 @@ StoredTree get_tree(PayloadReader& payload, const BlockReader& file) {
     return tree;
 }
 
-std::vector<ZoneNodeId> node_of_events(const StoredTree& tree, ZoneLayout layout) {
-    std::vector<ZoneNodeId> node(tree.values.size());
-    ZoneNodeId next(0);
-    for (std::size_t e = 0; e < node.size(); ++e) {
-        if (layout == ZoneLayout::by_zone || tree.heads[e] == static_cast<std::int64_t>(e)) node[e] = next, ++next;
-    }
-    for (std::size_t e = 0; e < node.size() && layout == ZoneLayout::by_path; ++e) node[e] = node[static_cast<std::size_t>(tree.heads[e])];
-    return node;
+NodesOfEvents nodes_of_events(const EventChains& events, ZoneLayout layout) {
+    return number_nodes(static_cast<std::size_t>(events.size()), layout, [&](EventId e) { return events.head(e); });
+}
+NodesOfEvents nodes_of_events(const StoredTree& tree, ZoneLayout layout) {
+    return number_nodes(tree.heads.size(), layout, [&](EventId e) { return EventId(tree.heads[e.index()]); });
 }
 
 ZoneTree::ZoneTree(const StoredTree& tree, ZoneLayout layout) {
-    const std::vector<ZoneNodeId> owner = node_of_events(tree, layout);
+    const NodesOfEvents nodes = nodes_of_events(tree, layout);
+    const std::span<const ZoneNodeId> owner = nodes.node.items();
     const std::size_t events = owner.size();
-    for (const ZoneNodeId node : owner) nodes_.resize(std::max(nodes_.size(), node.index() + 1));
+    nodes_.resize(nodes.count);
     std::vector<std::size_t> parent(nodes_.size(), nodes_.size());
     for (std::size_t e = 0; e < events; ++e) {
         Node& node = nodes_[owner[e].index()];

@@ -11,7 +11,7 @@
 
 #include "census/event_chains.h"
 #include "isoatlas/zone_files.h"
-#include "methods/disk/block_file.h"
+#include "methods/zones/block_stream.h"
 
 namespace isoatlas {
 
@@ -23,13 +23,17 @@ struct StoredTree {
     std::vector<std::int64_t> parents;  ///< that of the root: the number of events
     std::vector<std::int64_t> heads;    ///< of the heavy path: its event nearest to the root
 };
-[[nodiscard]] StoredTree stored_tree(const EventChains& events);
-void put_tree(PayloadWriter& payload, const StoredTree& tree);
+void put_tree(StreamWriter& stream, const EventChains& events);
 /// Throws Error{input}: no tree.
 [[nodiscard]] StoredTree get_tree(PayloadReader& payload, const BlockReader& file);
 
 /// Per event: the node that owns its cells. Nodes are numbered in the order of their events nearest to the root.
-[[nodiscard]] std::vector<ZoneNodeId> node_of_events(const StoredTree& tree, ZoneLayout layout);
+struct NodesOfEvents {
+    IdArray<EventId, ZoneNodeId> node;
+    std::size_t count = 0;  ///< of nodes
+};
+[[nodiscard]] NodesOfEvents nodes_of_events(const EventChains& events, ZoneLayout layout);
+[[nodiscard]] NodesOfEvents nodes_of_events(const StoredTree& tree, ZoneLayout layout);
 
 class ZoneTree {
 public:

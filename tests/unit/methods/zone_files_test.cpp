@@ -10,8 +10,11 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <optional>
 #include <set>
+#include <string>
 
+#include "base/memory_limit.h"
 #include "faults/memory_files.h"
 #include "isoatlas/phantom.h"
 #include "oracle/mesh_checks.h"
@@ -60,7 +63,18 @@ std::vector<std::vector<Index>> cells_of(const Grid& grid) {
     return cells;
 }
 
-class ZoneFileBytes : public Stores {};
+class ZoneFileBytes : public Stores {
+protected:
+    /// Written by so many threads, within a budget (0: none).
+    [[nodiscard]] std::string bytes_of(const Volume& volume, const Analysis& analysis, ZoneLayout layout, int threads,
+                                       std::int64_t budget) {
+        std::optional<isoatlas::MemoryLimit> limit;
+        if (budget > 0) limit.emplace(budget, testing::TempDir());
+        isoatlas::write_zone_files(path_, volume, analysis, {.layout = layout}, {.threads = threads});
+        std::ifstream in(path_, std::ios::binary);
+        return {std::istreambuf_iterator<char>(in), {}};
+    }
+};
 
 /// Files in memory.
 class ZoneFiles : public testing::Test {
@@ -324,6 +338,27 @@ TEST_F(ZoneFileBytes, AreRefusedWhenDamaged) {
     EXPECT_FALSE(opens(bad));
     EXPECT_TRUE(opens(good));
     EXPECT_TRUE(refuses(good));
+}
+
+TEST_F(ZoneFileBytes, AreTheSameForAnyThreadsAndMemory) {
+    const auto is_the_same = [this](const Volume& volume, ZoneLayout layout) {
+        const Analysis analysis = isoatlas::analyse(volume);
+        const std::string bytes = bytes_of(volume, analysis, layout, 1, 0);
+        EXPECT_GT(bytes.size(), std::size_t{1} << 23);
+        EXPECT_TRUE(bytes == bytes_of(volume, analysis, layout, 3, 0));
+        EXPECT_TRUE(bytes == bytes_of(volume, analysis, layout, 3, isoatlas::kMinMemory));
+    };
+    is_the_same(isoatlas::make_phantom("random-field", {.size = 64, .quantise = 20}), ZoneLayout::by_path);
+    is_the_same(isoatlas::make_phantom("noise", {.size = 48}), ZoneLayout::by_path);
+    std::vector<float> samples;  // two ridges; what is lower than the pass between them lies on both sides
+    for (int v = 0; v < 64 * 64 * 64; ++v) {
+        const int x = v % 64, y = v / 64 % 64, z = v / 4096;
+        samples.push_back(static_cast<float>(-std::min((x - 24) * (x - 24), (x - 40) * (x - 40))) - 0.001F * static_cast<float>(y + z));
+    }
+    is_the_same(isoatlas::make_volume<float>({3, {64, 64, 64}}, samples), ZoneLayout::by_zone);
+    const ZoneFileSearch file(path_);
+    EXPECT_EQ(file.zones(), 3);
+    EXPECT_EQ(file.components(), 4);
 }
 
 TEST_F(ZoneFileBytes, AreComparedWithBricks) {
