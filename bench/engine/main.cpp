@@ -11,6 +11,7 @@
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
+#include "command_line.h"
 #include "measure.h"
 #include "memory.h"
 #include "volumes.h"
@@ -30,31 +31,15 @@ struct Arguments {
 
 Arguments parse(int argc, char** argv) {
     Arguments arguments;
-    for (int i = 1; i < argc; ++i) {
-        const std::string word = argv[i];
-        const auto value = [&]() -> std::string {
-            if (++i == argc) throw std::runtime_error(word + " needs a value");
-            return argv[i];
-        };
-        if (word == "--data")
-            arguments.sources.data = value();
-        else if (word == "--cache")
-            arguments.sources.cache = value();
-        else if (word == "--json")
-            arguments.json = value();
-        else if (word == "--threads")
-            arguments.options.threads = std::stoi(value());
-        else if (word == "--pairs")
-            arguments.options.pairs = std::stoi(value());
-        else if (word == "--memory-of")
-            arguments.memory_of = value();
-        else if (word == "--no-sort")
-            arguments.options.sort = false;
-        else if (word.starts_with("--"))
-            throw std::runtime_error("unknown option " + word);
-        else
-            arguments.names.push_back(word);
-    }
+    arguments.names = bench::CommandLine()
+                          .value("--data", arguments.sources.data)
+                          .value("--cache", arguments.sources.cache)
+                          .value("--json", arguments.json)
+                          .value("--threads", arguments.options.threads)
+                          .value("--pairs", arguments.options.pairs)
+                          .value("--memory-of", arguments.memory_of)
+                          .flag("--no-sort", [&] { arguments.options.sort = false; })
+                          .read(argc, argv);
     return arguments;
 }
 

@@ -13,6 +13,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "command_line.h"
 #include "memory.h"
 #include "volumes.h"
 
@@ -31,37 +32,21 @@ struct Arguments {
 };
 
 Arguments parse(int argc, char** argv) {
-    if (argc < 2) throw std::runtime_error("usage: bench_extract VOLUME [TAU] [options]");
     Arguments arguments;
-    arguments.volume = argv[1];
     arguments.options.ids = false;
-    for (int i = 2; i < argc; ++i) {
-        const std::string word = argv[i];
-        const auto value = [&]() -> std::string {
-            if (++i == argc) throw std::runtime_error(word + " needs a value");
-            return argv[i];
-        };
-        if (word == "--threads")
-            arguments.context.threads = std::stoi(value());
-        else if (word == "--repeats")
-            arguments.repeats = std::stoi(value());
-        else if (word == "--cache")
-            arguments.sources.cache = value();
-        else if (word == "--data")
-            arguments.sources.data = value();
-        else if (word == "--open")
-            arguments.options.boundary = isoatlas::Boundary::open;
-        else if (word == "--full")
-            arguments.options.style = isoatlas::SurfaceStyle::full;
-        else if (word == "--ids")
-            arguments.options.ids = true;
-        else if (word == "--check")
-            arguments.check = true;
-        else if (word.starts_with("--") || arguments.tau)
-            throw std::runtime_error("unknown option " + word);
-        else
-            arguments.tau = std::stod(word);
-    }
+    const std::vector<std::string> words = bench::CommandLine()
+                                               .value("--threads", arguments.context.threads)
+                                               .value("--repeats", arguments.repeats)
+                                               .value("--cache", arguments.sources.cache)
+                                               .value("--data", arguments.sources.data)
+                                               .flag("--open", [&] { arguments.options.boundary = isoatlas::Boundary::open; })
+                                               .flag("--full", [&] { arguments.options.style = isoatlas::SurfaceStyle::full; })
+                                               .flag("--ids", arguments.options.ids)
+                                               .flag("--check", arguments.check)
+                                               .read(argc, argv);
+    if (words.empty() || words.size() > 2) throw std::runtime_error("usage: bench_extract VOLUME [TAU] [options]");
+    arguments.volume = words[0];
+    if (words.size() == 2) arguments.tau = std::stod(words[1]);
     return arguments;
 }
 

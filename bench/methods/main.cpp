@@ -9,7 +9,6 @@
 #include <isoatlas/isoatlas.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cstdio>
 #include <exception>
 #include <filesystem>
@@ -21,6 +20,7 @@
 #include <string>
 #include <vector>
 
+#include "command_line.h"
 #include "memory.h"
 #include "volumes.h"
 
@@ -44,37 +44,15 @@ struct Arguments {
 
 Arguments parse(int argc, char** argv) {
     Arguments arguments;
-    for (int i = 1; i < argc; ++i) {
-        const std::string word = argv[i];
-        const auto value = [&]() -> std::string {
-            if (++i == argc) throw std::runtime_error(word + " needs a value");
-            return argv[i];
-        };
-        if (word == "--cache")
-            arguments.sources.cache = value();
-        else if (word == "--data")
-            arguments.sources.data = value();
-        else if (word == "--json")
-            arguments.json = value();
-        else if (word == "--memory")
-            arguments.memory = std::stoll(value());
-        else if (word == "--block-bytes")
-            arguments.block_bytes = std::stoll(value());
-        else if (word == "--repeats")
-            arguments.repeats = std::stoi(value());
-        else if (word.starts_with("--"))
-            throw std::runtime_error("unknown option " + word);
-        else
-            arguments.words.push_back(word);
-    }
+    arguments.words = bench::CommandLine()
+                          .value("--cache", arguments.sources.cache)
+                          .value("--data", arguments.sources.data)
+                          .value("--json", arguments.json)
+                          .value("--memory", arguments.memory)
+                          .value("--block-bytes", arguments.block_bytes)
+                          .value("--repeats", arguments.repeats)
+                          .read(argc, argv);
     return arguments;
-}
-
-template <class Work>
-double seconds_of(const Work& work) {
-    const auto start = std::chrono::steady_clock::now();
-    work();
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
 constexpr int kIsovalues = 15;

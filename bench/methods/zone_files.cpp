@@ -1,23 +1,27 @@
 // bench_zones: what do the zone files of the dissertation cost, beside bricks?
 //
 //   bench_zones VOLUME [--cache FOLDER] [--data FOLDER] [--scratch FOLDER] [--block BYTES] [--isovalues N] [--max-entries N] [--threads N]
-//     [--by-path]
+//     [--memory BYTES] [--by-path]
+//   bench_zones VOLUME --build-only ...      writes the file by path, nothing else: its peak of memory
 //
 // VOLUME: as in bench_engine. Prints one JSON document: for each layout the file and what queries at so many isovalues of table 13.1 read
 // (mean), a surface from the file compared with that of the volume, and the bytes that a store reads for the same surfaces. Counts do not
-// depend on the machine; seconds do. By zone with too many entries: only how many; --by-path: not even that, which takes long.
+// depend on the machine; seconds do. By zone with too many entries: only how many; --by-path: not even that, which takes long. --memory: a
+// budget for loading, analysing and writing; tables of reads need several numbers a zone beside it.
 #include <isoatlas/isoatlas.h>
 
-#include <chrono>
 #include <cstdio>
 #include <exception>
 #include <filesystem>
 #include <functional>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
+#include "command_line.h"
+#include "memory.h"
 #include "volumes.h"
 
 namespace bench {
@@ -36,46 +40,27 @@ struct Arguments {
     isoatlas::ZoneFileOptions options;
     std::int64_t isovalues = 50;
     isoatlas::Context context;
-    bool by_path_alone = false;
+    std::int64_t memory = 0;  ///< 0: no budget
+    bool by_path_alone = false, build_only = false;
 };
 
 Arguments parse(int argc, char** argv) {
     Arguments arguments;
-    for (int i = 1; i < argc; ++i) {
-        const std::string word = argv[i];
-        const auto value = [&]() -> std::string {
-            if (++i == argc) throw std::runtime_error(word + " needs a value");
-            return argv[i];
-        };
-        if (word == "--cache")
-            arguments.sources.cache = value();
-        else if (word == "--data")
-            arguments.sources.data = value();
-        else if (word == "--scratch")
-            arguments.scratch = value();
-        else if (word == "--block")
-            arguments.options.block_bytes = std::stoll(value());
-        else if (word == "--isovalues")
-            arguments.isovalues = std::stoll(value());
-        else if (word == "--max-entries")
-            arguments.options.max_entries = std::stoll(value());
-        else if (word == "--threads")
-            arguments.context.threads = std::stoi(value());
-        else if (word == "--by-path")
-            arguments.by_path_alone = true;
-        else if (word.starts_with("--"))
-            throw std::runtime_error("unknown option " + word);
-        else
-            arguments.volume = word;
-    }
-    if (arguments.volume.empty()) throw std::runtime_error("which volume? the head of zone_files.cpp lists the arguments");
+    const std::vector<std::string> words = CommandLine()
+                                               .value("--cache", arguments.sources.cache)
+                                               .value("--data", arguments.sources.data)
+                                               .value("--scratch", arguments.scratch)
+                                               .value("--block", arguments.options.block_bytes)
+                                               .value("--isovalues", arguments.isovalues)
+                                               .value("--max-entries", arguments.options.max_entries)
+                                               .value("--threads", arguments.context.threads)
+                                               .value("--memory", arguments.memory)
+                                               .flag("--by-path", arguments.by_path_alone)
+                                               .flag("--build-only", arguments.build_only)
+                                               .read(argc, argv);
+    if (words.size() != 1) throw std::runtime_error("which volume? the head of zone_files.cpp lists the arguments");
+    arguments.volume = words.front();
     return arguments;
-}
-
-double seconds_of(const std::function<void()>& work) {
-    const auto start = std::chrono::steady_clock::now();
-    work();
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
 double mean(const std::vector<ZoneFileRow>& rows, const std::function<double(const ZoneFileRow&)>& number) {
@@ -115,17 +100,25 @@ bool gives_the_surface(ZoneFileSearch& file, const Volume& volume, double tau) {
     return found.points == surface.points && found.triangles == surface.triangles;
 }
 
-ordered_json measure(const Arguments& arguments, const Volume& volume, const isoatlas::Analysis& analysis, ZoneLayout layout,
-                     const std::string& store) {
-    const std::string path = arguments.scratch + "/bench_zones.zones";
+std::string file_path(const Arguments& arguments) { return arguments.scratch + "/bench_zones.zones"; }
+
+ordered_json write(const Arguments& arguments, const Volume& volume, const isoatlas::Analysis& analysis, ZoneLayout layout) {
     isoatlas::ZoneFileOptions options = arguments.options;
     options.layout = layout;
+    const double seconds =
+        seconds_of([&] { isoatlas::write_zone_files(file_path(arguments), volume, analysis, options, arguments.context); });
+    const ZoneFileSearch file(file_path(arguments));
+    return {{"entries", file.entries()},  {"written", true},       {"build_seconds", seconds},       {"file_bytes", file.file_bytes()},
+            {"tree_bytes", file.bytes()}, {"zones", file.zones()}, {"components", file.components()}};
+}
+
+ordered_json measure(const Arguments& arguments, const Volume& volume, const isoatlas::Analysis& analysis, ZoneLayout layout,
+                     const std::string& store) {
     const std::int64_t entries = layout == ZoneLayout::by_zone ? isoatlas::count_zone_file_entries(volume, analysis, layout) : 0;
-    if (entries > options.max_entries) return {{"entries", entries}, {"written", false}};
-    const double build = seconds_of([&] { isoatlas::write_zone_files(path, volume, analysis, options, arguments.context); });
-    ordered_json result;
+    if (entries > arguments.options.max_entries) return {{"entries", entries}, {"written", false}};
+    ordered_json result = write(arguments, volume, analysis, layout);
     {
-        ZoneFileSearch file(path);
+        ZoneFileSearch file(file_path(arguments));
         const std::vector<ZoneFileRow> rows =
             isoatlas::zone_file_table(file, volume, analysis, arguments.isovalues, store, arguments.context);
         double query = 0;
@@ -133,38 +126,50 @@ ordered_json measure(const Arguments& arguments, const Volume& volume, const iso
             isoatlas::CellSearchCost cost;
             query += seconds_of([&] { (void)file.active(row.counted.tau, cost); });
         }
-        result = {{"entries", file.entries()},
-                  {"written", true},
-                  {"build_seconds", build},
-                  {"file_bytes", file.file_bytes()},
-                  {"tree_bytes", file.bytes()},
-                  {"zones", file.zones()},
-                  {"components", file.components()},
-                  {"queries", means(rows)},
-                  {"query_seconds", rows.empty() ? 0 : query / static_cast<double>(rows.size())},
-                  {"same_surface", rows.empty() || gives_the_surface(file, volume, rows[rows.size() / 2].counted.tau)}};
+        result["queries"] = means(rows);
+        result["query_seconds"] = rows.empty() ? 0 : query / static_cast<double>(rows.size());
+        result["same_surface"] = rows.empty() || gives_the_surface(file, volume, rows[rows.size() / 2].counted.tau);
     }
-    std::filesystem::remove(path);
+    std::filesystem::remove(file_path(arguments));
     return result;
 }
 
-void run(const Arguments& arguments) {
-    std::filesystem::create_directories(arguments.sources.cache);
-    const Volume volume = make(arguments.volume, arguments.sources);
-    isoatlas::Analysis analysis = isoatlas::analyse(volume, {}, arguments.context);
+ordered_json compare_with_store(const Arguments& arguments, const Volume& volume, const isoatlas::Analysis& analysis) {
     const std::string store = arguments.scratch + "/bench_zones.atlas";
     isoatlas::build_atlas(store, volume, {}, arguments.context);
+    ordered_json result{{"store_bytes", std::filesystem::file_size(store)}};
+    result["by_path"] = measure(arguments, volume, analysis, ZoneLayout::by_path, store);
+    if (!arguments.by_path_alone) result["by_zone"] = measure(arguments, volume, analysis, ZoneLayout::by_zone, store);
+    std::filesystem::remove(store);
+    return result;
+}
+
+void run(Arguments arguments) {
+    std::filesystem::create_directories(arguments.sources.cache);
+    std::optional<isoatlas::MemoryBudget> budget;
+    isoatlas::Environment environment;
+    if (arguments.memory > 0) environment.memory = &budget.emplace(arguments.memory, std::filesystem::absolute(arguments.scratch).string());
+    arguments.context.environment = &environment;
+    const isoatlas::EnvironmentScope scope(environment);
+    const std::int64_t before = reset_peak();
+    const Volume volume = make(arguments.volume, arguments.sources);
     const isoatlas::Extent& extent = volume.info.extent;
     ordered_json document{{"volume", arguments.volume},
                           {"size", {extent.size[0], extent.size[1], extent.size[2]}},
                           {"type", isoatlas::name_of(volume.info.type)},
                           {"volume_bytes", volume.bytes.size()},
-                          {"store_bytes", std::filesystem::file_size(store)},
-                          {"events", analysis.event_count()},
-                          {"block_bytes", arguments.options.block_bytes}};
-    document["by_path"] = measure(arguments, volume, analysis, ZoneLayout::by_path, store);
-    if (!arguments.by_path_alone) document["by_zone"] = measure(arguments, volume, analysis, ZoneLayout::by_zone, store);
-    std::filesystem::remove(store);
+                          {"block_bytes", arguments.options.block_bytes},
+                          {"memory", arguments.memory}};
+    isoatlas::Analysis analysis = isoatlas::analyse(volume, {}, arguments.context);
+    document["events"] = analysis.event_count();
+    document["peak_of_analysis"] = peak();
+    if (arguments.build_only) {
+        document["by_path"] = write(arguments, volume, analysis, ZoneLayout::by_path);
+        document["peak_bytes"] = peak(), document["resident_before"] = before;
+        std::filesystem::remove(file_path(arguments));
+    } else {
+        document.update(compare_with_store(arguments, volume, analysis));
+    }
     std::printf("%s\n", document.dump(2).c_str());
 }
 

@@ -18,6 +18,7 @@
 #include <string>
 #include <string_view>
 
+#include "command_line.h"
 #include "memory.h"
 #include "volumes.h"
 
@@ -36,42 +37,25 @@ struct Arguments {
 };
 
 Arguments parse(int argc, char** argv) {
-    if (argc < 2) throw std::runtime_error("usage: bench_render VOLUME [options]");
     Arguments arguments;
-    arguments.volume = argv[1];
-    for (int i = 2; i < argc; ++i) {
-        const std::string word = argv[i];
-        const auto next = [&]() -> std::string {
-            if (++i == argc) throw std::runtime_error(word + " needs a value");
-            return argv[i];
-        };
-        if (word == "--cache")
-            arguments.sources.cache = next();
-        else if (word == "--data")
-            arguments.sources.data = next();
-        else if (word == "--surface")
-            arguments.surface = true;
-        else if (word == "--flat")
-            arguments.options.shading = false;
-        else if (word == "--size")
-            arguments.options.width = arguments.options.height = std::stoll(next());
-        else if (word == "--samples")
-            arguments.options.samples = std::stoi(next());
-        else if (word == "--threads")
-            arguments.context.threads = std::stoi(next());
-        else if (word == "--step")
-            arguments.step = std::stod(next());
-        else if (word == "--repeats")
-            arguments.repeats = std::stoi(next());
-        else if (word == "--raw")
-            arguments.raw = next();
-        else if (word == "--picture")
-            arguments.picture = next();
-        else if (word == "--like")
-            arguments.like = next();
-        else
-            throw std::runtime_error("unknown option " + word);
-    }
+    std::int64_t size = arguments.options.width;
+    const std::vector<std::string> words = bench::CommandLine()
+                                               .value("--cache", arguments.sources.cache)
+                                               .value("--data", arguments.sources.data)
+                                               .flag("--surface", arguments.surface)
+                                               .flag("--flat", [&] { arguments.options.shading = false; })
+                                               .value("--size", size)
+                                               .value("--samples", arguments.options.samples)
+                                               .value("--threads", arguments.context.threads)
+                                               .value("--step", arguments.step)
+                                               .value("--repeats", arguments.repeats)
+                                               .value("--raw", arguments.raw)
+                                               .value("--picture", arguments.picture)
+                                               .value("--like", arguments.like)
+                                               .read(argc, argv);
+    if (words.size() != 1) throw std::runtime_error("usage: bench_render VOLUME [options]");
+    arguments.volume = words.front();
+    arguments.options.width = arguments.options.height = size;
     return arguments;
 }
 

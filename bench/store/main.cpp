@@ -15,7 +15,6 @@
 
 #include <algorithm>
 #include <array>
-#include <chrono>
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
@@ -27,6 +26,7 @@
 #include <vector>
 
 #include "cold.h"
+#include "command_line.h"
 #include "memory.h"
 #include "volumes.h"
 
@@ -54,37 +54,15 @@ struct Arguments {
 
 Arguments parse(int argc, char** argv) {
     Arguments arguments;
-    for (int i = 1; i < argc; ++i) {
-        const std::string word = argv[i];
-        const auto value = [&]() -> std::string {
-            if (++i == argc) throw std::runtime_error(word + " needs a value");
-            return argv[i];
-        };
-        if (word == "--cache")
-            arguments.sources.cache = value();
-        else if (word == "--data")
-            arguments.sources.data = value();
-        else if (word == "--threads")
-            arguments.context.threads = std::stoi(value());
-        else if (word == "--repeats")
-            arguments.repeats = std::stoi(value());
-        else if (word == "--voxels")
-            arguments.voxels = std::stoll(value());
-        else if (word == "--analysis")
-            arguments.analysis = true;
-        else if (word.starts_with("--"))
-            throw std::runtime_error("unknown option " + word);
-        else
-            arguments.words.push_back(word);
-    }
+    arguments.words = bench::CommandLine()
+                          .value("--cache", arguments.sources.cache)
+                          .value("--data", arguments.sources.data)
+                          .value("--threads", arguments.context.threads)
+                          .value("--repeats", arguments.repeats)
+                          .value("--voxels", arguments.voxels)
+                          .flag("--analysis", arguments.analysis)
+                          .read(argc, argv);
     return arguments;
-}
-
-template <class Work>
-double seconds_of(const Work& work) {
-    const auto start = std::chrono::steady_clock::now();
-    work();
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
 /// A query of an open store, with the file's pages in memory: without bricks, then with those that it needs.
