@@ -17,7 +17,7 @@ describe.skipIf(!browserFile || !existsSync(cli))("the page of compare", () => {
   let browser: Browser;
   let tab: Tab;
   beforeAll(async () => {
-    execFileSync(cli, ["phantom", "noise", "--size", "16", "-o", name, "--quiet"], { cwd: folder });
+    execFileSync(cli, ["phantom", "noise", "--size", "10", "-o", name, "--quiet"], { cwd: folder });
     const growth = ["--isovalues", "4", "--sizes", "3"];
     execFileSync(cli, ["compare", name, "--tau", "0.5", "--methods", "all", ...growth, "-o", "compare.html", "--quiet"], { cwd: folder });
     browser = await chromium.launch({ executablePath: browserFile, args: ["--no-sandbox"] });
