@@ -52,6 +52,7 @@
 #include "isoatlas/output.h"
 #include "isoatlas/output_file.h"
 #include "isoatlas/page.h"
+#include "isoatlas/persistence.h"
 #include "isoatlas/phantom.h"
 #include "isoatlas/polarity.h"
 #include "isoatlas/print.h"

@@ -8,6 +8,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
@@ -19,6 +20,7 @@
 #include "isoatlas/context.h"
 #include "isoatlas/error.h"
 #include "isoatlas/index3.h"
+#include "isoatlas/sample_bytes.h"
 
 namespace isoatlas {
 
@@ -165,7 +167,7 @@ struct MissingPolicy {
 class Volume {
 public:
     VolumeInfo info;
-    std::vector<std::byte> bytes;
+    SampleBytes bytes;  ///< the volume's own, or borrowed
 
     template <class T>
     [[nodiscard]] std::span<const T> samples() const {
@@ -207,8 +209,22 @@ decltype(auto) visit_samples(const Volume& volume, Function&& function) {
 [[nodiscard]] Volume load_volume(VolumeReader& reader, const MissingPolicy& missing = {}, const Context& context = {});
 [[nodiscard]] Volume load_volume(const std::string& path, const OpenOptions& options = {}, const MissingPolicy& missing = {},
                                  const Context& context = {});
+/// The same policy for a volume that is in memory: what load_volume() does to the samples of a file, the calibration included. Borrowed
+/// samples are copied if one is missing, or the calibration changes them. Throws Error as load_volume(). Cost: O(volume) time.
+void replace_missing(Volume& volume, const MissingPolicy& missing = {}, const Context& context = {});
+/// A reader of samples that come from elsewhere: an array of another program, a file in pieces. read(z_begin, z_end, out) is called from one
+/// thread as VolumeReader::read() is, in any order and more than once, and fills `out` with samples of info.type in host byte order.
+/// Throws Error{usage} for an info whose sizes are below 1.
+[[nodiscard]] std::unique_ptr<VolumeReader> slab_reader(
+    VolumeInfo info, std::function<void(std::int64_t z_begin, std::int64_t z_end, std::span<std::byte> out)> read);
+
 /// An empty (zero-filled) volume of a type. Throws Error{usage} for sizes below 1 or a product that does not fit.
 [[nodiscard]] Volume make_volume(const Extent& extent, ValueType type, const Geometry& geometry = {});
+/// A volume of samples that stay where they are (x fastest, host byte order, aligned for their type): nothing is copied, and nothing is
+/// written to them (SampleBytes). owner: keeps them alive as long as the volume and its copies live. Throws Error{usage} as make_volume(),
+/// when the number of bytes does not match, or they are not aligned.
+[[nodiscard]] Volume borrow_volume(const Extent& extent, ValueType type, std::span<const std::byte> samples,
+                                   std::shared_ptr<const void> owner, const Geometry& geometry = {});
 
 template <class T>
 inline constexpr ValueType value_type_of = ValueType::u8;

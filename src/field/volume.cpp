@@ -2,8 +2,10 @@
 #include "isoatlas/volume.h"
 
 #include <cmath>
+#include <cstdint>
 #include <cstring>
 #include <limits>
+#include <utility>
 
 #include "field/error_free.h"
 
@@ -84,8 +86,11 @@ double Volume::value(std::int64_t index) const {
     return visit_samples(*this, [index](auto samples) { return static_cast<double>(samples[static_cast<std::size_t>(index)]); });
 }
 
-Volume make_volume(const Extent& extent, ValueType type, const Geometry& geometry) {
-    std::int64_t voxels = 1;
+namespace {
+
+/// A volume without samples; voxels: receives how many there are.
+Volume described_volume(const Extent& extent, ValueType type, const Geometry& geometry, std::int64_t& voxels) {
+    voxels = 1;
     for (const std::int64_t size : extent.size) {
         if (size < 1 || voxels > std::numeric_limits<std::int64_t>::max() / 8 / size) {
             throw Error(ErrorKind::usage, {.what = "the extent of a volume must be positive and its size must fit in 63 bits"});
@@ -98,7 +103,27 @@ Volume make_volume(const Extent& extent, ValueType type, const Geometry& geometr
     volume.info.geometry = geometry;
     volume.info.format = "memory";
     volume.info.encoding = "raw";
+    return volume;
+}
+
+}  // namespace
+
+Volume make_volume(const Extent& extent, ValueType type, const Geometry& geometry) {
+    std::int64_t voxels = 0;
+    Volume volume = described_volume(extent, type, geometry, voxels);
     volume.bytes.resize(static_cast<std::size_t>(voxels) * size_of(type));
+    return volume;
+}
+
+Volume borrow_volume(const Extent& extent, ValueType type, std::span<const std::byte> samples, std::shared_ptr<const void> owner,
+                     const Geometry& geometry) {
+    std::int64_t voxels = 0;
+    Volume volume = described_volume(extent, type, geometry, voxels);
+    if (samples.size() != static_cast<std::size_t>(voxels) * size_of(type))
+        throw Error(ErrorKind::usage, {.what = "the number of samples does not match the extent"});
+    if (reinterpret_cast<std::uintptr_t>(samples.data()) % size_of(type) != 0)
+        throw Error(ErrorKind::usage, {.what = "the samples are not aligned for their type", .next = "copy them"});
+    volume.bytes = SampleBytes(samples, std::move(owner));
     return volume;
 }
 

@@ -28,11 +28,11 @@ FOLDERS = {room.split("/")[0] for room in LIBRARY_OF}
 # room -> public headers (isoatlas/NAME.h) that belong to it: rooms before it do not include them, as they do not include its own
 PUBLIC = {
     "base": "array bounds context environment error id index3 output_file sink text version",
-    "field": "filter interpolant isovalue polarity samples_wanted shell units volume",
+    "field": "filter interpolant isovalue polarity sample_bytes samples_wanted shell units volume",
     "tree": "criticality",
     "analysis": "active analysis",
     "features": "both_polarities cards cavities objects selection simplify spectrum survey",
-    "persistence": "handles",
+    "persistence": "handles persistence",
     "levelset": "cut nested_labels",
     "mesh": "labels print surface",
     "formats/common": "object_names output segmentation shell_word",

@@ -23,6 +23,9 @@ public:
     /// out[i] = calibrated samples[i]; missing samples become NaN (look() is then to be called with f64).
     void calibrate(ValueType type, std::span<const std::byte> samples, const Calibration& calibration, std::span<double> out) const;
 
+    /// Was one of the samples that look() has seen missing?
+    [[nodiscard]] bool has_missing() const { return count_ > 0; }
+
     /// Replaces every missing sample and adds a note with their number.
     /// Throws Error{input} under Action::below (above) when every sample is missing or the type has nothing below the smallest (above the
     /// largest) one.

@@ -3,6 +3,7 @@
 #include <new>
 #include <string>
 
+#include "base/cancel.h"
 #include "formats/common/missing.h"
 #include "formats/volume/load_samples.h"
 #include "formats/volume/read_slabs.h"
@@ -76,6 +77,27 @@ Volume load_volume(VolumeReader& reader, const MissingPolicy& missing, const Con
     };
     volume.info = load_samples(reader, missing, allocate, context);
     return volume;
+}
+
+void replace_missing(Volume& volume, const MissingPolicy& missing, const Context& context) {
+    const EnvironmentScope scope(context);
+    const Volume& given = volume;  // borrowed samples are copied when they are written to, and not before
+    if (volume.info.calibration.slope < 0) {
+        const std::int64_t slice = volume.info.extent.slice() * static_cast<std::int64_t>(size_of(volume.info.type));
+        const auto reader = slab_reader(volume.info, [&](std::int64_t z_begin, std::int64_t z_end, std::span<std::byte> out) {
+            std::copy(given.bytes.begin() + z_begin * slice, given.bytes.begin() + z_end * slice, out.begin());
+        });
+        volume = load_volume(*reader, missing, context);
+        return;
+    }
+    MissingScan scan(volume.info, missing, false);
+    const std::span<const std::byte> all(given.bytes.data(), given.bytes.size());
+    const std::size_t slab = kSlabBytes, size = size_of(volume.info.type);
+    for (std::size_t first = 0; first < all.size(); first += slab) {
+        stop_if_cancelled(context);
+        scan.look(volume.info.type, all.subspan(first, std::min(slab, all.size() - first)), static_cast<std::int64_t>(first / size));
+    }
+    if (scan.has_missing()) scan.replace(volume.info, volume.bytes);
 }
 
 Volume load_volume(const std::string& path, const OpenOptions& options, const MissingPolicy& missing, const Context& context) {

@@ -1,0 +1,23 @@
+# ISOATLAS_PYTHON: the package for /usr/bin/python3 (or Python3_EXECUTABLE), on where its headers, pybind11 and numpy are there.
+set(Python3_EXECUTABLE /usr/bin/python3 CACHE FILEPATH "The Python that the package is for")
+find_package(Python3 QUIET COMPONENTS Interpreter Development.Module NumPy)
+set(PYTHON_EXECUTABLE ${Python3_EXECUTABLE})  # as pybind11 2.10 calls it
+find_package(pybind11 2.10 QUIET CONFIG)
+set(has_python OFF)
+if(has_all AND Python3_FOUND AND pybind11_FOUND)
+  set(has_python ON)
+endif()
+cmake_dependent_option(ISOATLAS_PYTHON "Build the Python package" ON has_python OFF)
+if(ISOATLAS_PYTHON)
+  # Debian's python3 finds dist-packages of its own prefixes, others site-packages of theirs.
+  if(NOT ISOATLAS_PYTHON_FOLDER)
+    if(CMAKE_INSTALL_PREFIX STREQUAL "/usr")
+      set(ISOATLAS_PYTHON_FOLDER lib/python3/dist-packages)
+    elseif(CMAKE_INSTALL_PREFIX STREQUAL "/usr/local")
+      set(ISOATLAS_PYTHON_FOLDER lib/python${Python3_VERSION_MAJOR}.${Python3_VERSION_MINOR}/dist-packages)
+    else()
+      set(ISOATLAS_PYTHON_FOLDER lib/python${Python3_VERSION_MAJOR}.${Python3_VERSION_MINOR}/site-packages)
+    endif()
+  endif()
+  add_subdirectory(python)
+endif()

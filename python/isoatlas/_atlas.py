@@ -1,0 +1,598 @@
+"""Atlas: a volume with all its isovalues, in memory or from a store."""
+from __future__ import annotations
+
+import os
+import re
+import tempfile
+from typing import Any, Mapping, Optional, Sequence, Union
+
+import numpy as np
+
+from . import _arrays, _core, _html
+from ._arrays import Spacing
+from ._calls import Progress, call
+from ._mesh import Array, Check, Mesh, Path, checked
+from ._objects import Object, Table
+from ._tree import Handles, Spectrum, Tree
+from .errors import InputError, NotFoundError, UnsupportedError, raised
+
+Memory = Union[None, int, str]
+Reference = Union[Object, int, str]
+ROWS = 24  #: lines of the table, as the command line lists them
+KNOWN = 1000  #: lines that numbers refer to
+
+
+def bytes_of(memory: Memory) -> int:
+    """A size like "4G" (factors of 1024) as a number of bytes; None: 0."""
+    if memory is None:
+        return 0
+    found = re.fullmatch(r"\s*([0-9.]+)\s*([kmgt]?)(i?b)?\s*", str(memory).lower())
+    size = int(float(found[1]) * 1024 ** " kmgt".index(found[2] or " ")) if found and found[1].count(".") < 2 else 0
+    if size < _core.min_memory():
+        raise raised(InputError, f"memory cannot be {memory!r}", expected="a size of at least 80M, such as '500M' or '2G'",
+                     next="give more, or leave it out")
+    return size
+
+
+def reading_options(*, spacing: Spacing = None, origin: Any = None, unit: Optional[str] = None, value_unit: Optional[str] = None,
+                    dims: Any = None, type: Any = None, endian: Optional[str] = None, skip: Optional[int] = None,
+                    skip_rest: bool = False, follow_links: bool = False, time_step: Optional[int] = None) -> dict[str, Any]:
+    """What the reader of a volume file takes."""
+    if endian not in (None, "little", "big"):
+        raise raised(InputError, f"endian cannot be {endian!r}", expected="'little', 'big'", next="use one of them")
+    return {"spacing": _arrays.spacing_of(spacing), "origin": None if origin is None else _arrays.numbers_of("origin", origin, (3,)),
+            "unit": unit, "value_unit": value_unit, "dims": None if dims is None else [int(n) for n in dims][::-1],
+            "type": None if type is None else np.dtype(type).name, "big_endian": None if endian is None else endian == "big",
+            "skip_bytes": skip, "skip_rest": skip_rest, "follow_links": follow_links, "time_step": time_step}
+
+
+def _box_of(box: Any, shape: Sequence[int]) -> Optional[list[list[int]]]:
+    """Slices in the order of the array's axes as [begin, end] of x, y, z."""
+    if box is None:
+        return None
+    ends = [one.indices(size)[:2] if isinstance(one, slice) else tuple(one) for one, size in zip(box, shape)]
+    if len(ends) != len(shape):
+        raise raised(InputError, f"box has {len(ends)} axes", expected=f"{len(shape)} slices, such as numpy.s_[0:20, 30:50, 10:30]",
+                     next="give one for each axis")
+    ends = ends[::-1] + [(0, 1)] * (3 - len(shape))
+    return [[int(begin) for begin, _ in ends], [int(end) for _, end in ends]]
+
+
+def open(source: Any, *, spacing: Spacing = None, origin: Any = None, direction: Any = None, unit: Optional[str] = None,
+         value_unit: Optional[str] = None, dims: Any = None, type: Any = None, endian: Optional[str] = None, skip: Optional[int] = None,
+         skip_rest: bool = False, follow_links: bool = False, time_step: Optional[int] = None, missing: Union[None, str, float] = None,
+         no_data: Optional[float] = None, box: Any = None, gaussian: float = 0.0, polarity: Optional[str] = None,
+         interpolant: str = "trilinear", tunnel_height: float = 0.0, memory: Memory = None, store: Optional[Path] = None,
+         progress: Progress = None, threads: int = 0) -> Atlas:
+    """Opens a volume for all isovalues: arrays are (z, y, x), points are (x, y, z) in physical units.
+
+    Parameters
+    ----------
+    source : path, ndarray, or what behaves like one
+        A volume file, a store (``.atlas``), an array with axes (z, y, x) or (y, x): also a memmap, a zarr, dask or h5py array, an
+        ``xarray.DataArray``. C-contiguous arrays in host byte order of 8, 16 or 32 bit integers, float32 or float64 are used where they
+        are and must not be changed while the atlas lives; others are copied.
+    spacing : float or sequence of float, optional
+        Distance of samples in the order of the array's axes, (z, y, x); of a file: instead of what its header says.
+    origin : (float, float, float), optional
+        Of sample 0, (x, y, z).
+    direction : (3, 3) array, optional
+        Columns: unit vectors along the axes x, y, z of the array. Arrays only.
+    unit, value_unit : str, optional
+        Of lengths ("mm", "um") and of samples.
+    dims, type, endian, skip, skip_rest, follow_links, time_step
+        Of the reader of files, as the options of the command line; dims are (z, y, x).
+    missing : {"below", "above"} or float, optional
+        What becomes of NaN and infinite samples, and of those equal to no_data; without it they are an error.
+    no_data : float, optional
+    box : sequence of slice, optional
+        Part of the volume, in the order of the array's axes.
+    gaussian : float
+        Filters first: sigma in the unit of the spacing; 0: off.
+    polarity : {"high", "low"}, optional
+        Objects of high values (default), or of low ones.
+    interpolant : {"trilinear", "faces"}
+        How samples are connected inside cells.
+    tunnel_height : float
+        Tunnels of at most this height are left out; calibrated.
+    memory : int or str, optional
+        Builds a store within this memory ("4G"), for volumes that are larger. Without it the volume is in memory.
+    store : path, optional
+        Where that store is kept; else it is a temporary file that ends with the atlas. If the file is there it must be of this volume.
+    progress : bool or callable, optional
+        True: a bar (tqdm where it is installed); a function: called with the phase and the part, 0 to 1.
+    threads : int
+        0: all processors. Results are the same bytes for any number.
+
+    Returns
+    -------
+    Atlas
+        Nothing is analysed until it is asked for, except where a store is built.
+
+    Raises
+    ------
+    InputError
+        The file is missing or damaged, an argument means nothing, samples are missing.
+    UnsupportedError
+        A type of samples or a format that is not read.
+    ResourceError
+        Not enough memory or disk.
+    """
+    made = {name: value for name, value in locals().items() if name not in ("source", "progress", "threads")}
+    own = call(progress, threads)
+    is_file = _arrays.is_path(source)
+    if is_file:
+        reading = reading_options(spacing=spacing, origin=origin, unit=unit, value_unit=value_unit, dims=dims, type=type, endian=endian,
+                                  skip=skip, skip_rest=skip_rest, follow_links=follow_links, time_step=time_step)
+        if direction is not None:
+            raise raised(InputError, "direction is for arrays; files have theirs", next="leave it out")
+        path = os.fspath(source)
+        if _core.is_store(path):
+            found = _core.Source.of_store(path, polarity, reading)
+            _check_store_options(found, interpolant, tunnel_height, gaussian, box, missing)
+            return Atlas(found, (path, made))
+    else:
+        if any(value is not None for value in (dims, type, endian, skip, time_step)):
+            raise raised(InputError, "dims, type, endian, skip and time_step are for files", next="leave them out")
+        source, hints = _arrays.from_xarray(source)
+        spacing, origin = hints.get("spacing", spacing) if spacing is None else spacing, hints.get("origin") if origin is None else origin
+        value_unit = hints.get("value_unit") if value_unit is None else value_unit
+    if memory is not None or store is not None:
+        if box is not None:
+            raise raised(UnsupportedError, "a store is of the whole volume", next="slice the array, or leave out memory= and store=")
+        folder = None if store is not None else tempfile.TemporaryDirectory(prefix="isoatlas-")
+        where = os.path.join(folder.name, "volume.atlas") if folder is not None else os.fspath(store or "")
+        build(source, where, spacing=spacing, origin=origin, direction=direction, unit=unit, value_unit=value_unit, dims=dims, type=type,
+              endian=endian, skip=skip, skip_rest=skip_rest, follow_links=follow_links, time_step=time_step, missing=missing,
+              no_data=no_data, gaussian=gaussian, polarity=polarity or "high", interpolant=interpolant, tunnel_height=tunnel_height,
+              memory=memory, progress=progress, threads=threads)
+        return Atlas(_core.Source.of_store(where, None, {}), (source, made) if folder else (where, {}), folder)
+    if is_file:
+        volume = _core.read_volume(path, reading, missing, no_data, own)
+    else:
+        volume = _arrays.volume_of(source, spacing, origin, direction, unit, value_unit or "")
+        volume.complete(missing, no_data, own)
+    found_box = _box_of(box, volume.samples.shape)
+    if found_box is not None or gaussian:
+        volume = volume.shaped(found_box, gaussian, own)
+    if polarity == "low":
+        volume = volume.negated()
+    elif polarity not in (None, "high"):
+        raise raised(InputError, f"polarity cannot be {polarity!r}", expected="'high', 'low'", next="use one of them")
+    height = tunnel_height / abs(volume.info["slope"])
+    return Atlas(_core.Source.of_volume(volume, interpolant, height), (source, made))
+
+
+def _check_store_options(source: _core.Source, interpolant: str, tunnel_height: float, gaussian: float, box: Any, missing: Any) -> None:
+    """What is fixed when a store is built."""
+    given = {"interpolant": interpolant != "trilinear" and interpolant != source.interpolant, "tunnel_height": tunnel_height != 0,
+             "gaussian": gaussian not in (0, source.info["gaussian"]), "box": box is not None, "missing": missing is not None}
+    for name, contradicts in given.items():
+        if contradicts:
+            raise raised(InputError, f"{name} contradicts the store, which is built", file=source.info["path"],
+                         next=f"leave {name} out, or build another store from the volume")
+
+
+def build(source: Any, path: Path, *, spacing: Spacing = None, origin: Any = None, direction: Any = None, unit: Optional[str] = None,
+          value_unit: Optional[str] = None, dims: Any = None, type: Any = None, endian: Optional[str] = None, skip: Optional[int] = None,
+          skip_rest: bool = False, follow_links: bool = False, time_step: Optional[int] = None, missing: Union[None, str, float] = None,
+          no_data: Optional[float] = None, gaussian: float = 0.0, polarity: str = "high", interpolant: str = "trilinear",
+          tunnel_height: float = 0.0, memory: Memory = None, restart: bool = False, progress: Progress = None,
+          threads: int = 0) -> dict[str, Any]:
+    """Analyses a volume of any size and writes a store, as ``isoatlas build``: arrays are (z, y, x), origin is (x, y, z).
+
+    Parameters
+    ----------
+    source
+        As :func:`open`. zarr, dask and h5py arrays and memmaps are read slab by slab, and may be larger than memory.
+    path : path
+        Of the store; it appears when it is complete. An interrupted build resumes with the same call.
+    polarity : {"high", "low", "both"}
+    memory : int or str, optional
+        The process stays within it; default: half of what the machine has.
+    restart : bool
+        Discards what an interrupted build has finished.
+
+    Returns
+    -------
+    dict
+        ``bytes`` of the store, ``peak_memory`` of the process, ``resumed`` phases.
+
+    Raises
+    ------
+    ResourceError
+        The memory or the disk is too small.
+    """
+    options = {"interpolant": interpolant, "tunnel_height": float(tunnel_height), "gaussian": float(gaussian), "memory": bytes_of(memory),
+               "polarity": polarity, "restart": restart}
+    own = call(progress, threads)
+    if _arrays.is_path(source):
+        reading = reading_options(spacing=spacing, origin=origin, unit=unit, value_unit=value_unit, dims=dims, type=type, endian=endian,
+                                  skip=skip, skip_rest=skip_rest, follow_links=follow_links, time_step=time_step)
+        return _core.build_from_file(os.fspath(path), os.fspath(source), reading, options, missing, no_data, own)
+    if _arrays.is_lazy(source) and len(source.shape) == 3:
+        dtype = np.dtype(source.dtype).newbyteorder("=")
+        if dtype.str[1:] not in _arrays.TYPES:
+            raise raised(UnsupportedError, f"samples of type {dtype} are not read slab by slab",
+                         expected="integers of 8, 16 or 32 bits, float32 or float64", next="convert the array")
+        if 0 in source.shape:
+            raise raised(InputError, "the array is empty", expected="at least one sample", next="check how it was made")
+        about = _arrays.geometry(spacing, origin, direction, unit, 3)
+
+        def read(begin: int, end: int) -> Array:
+            return np.ascontiguousarray(np.asarray(source[begin:end]), dtype=dtype)
+
+        return _core.build_from_slabs(os.fspath(path), list(source.shape), dtype, read, about, value_unit or "", options, missing, no_data,
+                                      own)
+    volume = _arrays.volume_of(source, spacing, origin, direction, unit, value_unit or "")
+    return _core.build_from_volume(os.fspath(path), volume, options, missing, no_data, own)
+
+
+class Atlas:
+    """A volume with its objects at all isovalues: arrays are (z, y, x), points are (x, y, z) in physical units.
+
+    Made by :func:`isoatlas.open`. What needs an analysis computes it once, at the first call. Isovalues are calibrated. Queries may be
+    called from several threads at once, and interrupted with Ctrl-C.
+    """
+
+    def __init__(self, source: _core.Source, recipe: tuple[Any, Mapping[str, Any]], folder: Any = None) -> None:
+        self._open_source: Optional[_core.Source] = source
+        self._recipe = recipe
+        self._folder = folder  # of a temporary store
+        self._objects: Optional[Table] = None
+        self._cavities: Optional[Table] = None
+        self._known: dict[bool, Table] = {}
+
+    @property
+    def _source(self) -> _core.Source:
+        if self._open_source is None:
+            raise raised(InputError, "the atlas is closed", next="isoatlas.open() opens it again")
+        return self._open_source
+
+    def close(self) -> None:
+        """Frees the volume and its trees, and removes a temporary store. Meshes and labels live on."""
+        self._open_source = self._objects = self._cavities = None
+        self._known = {}
+        if self._folder is not None:
+            self._folder.cleanup()
+            self._folder = None
+
+    def __enter__(self) -> Atlas:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self.close()
+
+    def __copy__(self) -> Atlas:
+        return self
+
+    def __deepcopy__(self, _: Any) -> Atlas:
+        return self
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        source, options = self._recipe
+        return _open_again, (os.path.abspath(source) if _arrays.is_path(source) else source, dict(options))
+
+    # What it is of.
+
+    @property
+    def info(self) -> dict[str, Any]:
+        """What the header says, by the names of the JSON documents of the command line: ``dims``, ``spacing`` in the order x, y, z."""
+        return self._source.info
+
+    @property
+    def shape(self) -> tuple[int, ...]:
+        """Of the array: (z, y, x), or (y, x)."""
+        return tuple(self.info["dims"][::-1])
+
+    @property
+    def ndim(self) -> int:
+        """3 or 2."""
+        return int(self.info["rank"])
+
+    @property
+    def dtype(self) -> np.dtype[Any]:
+        """Of the samples."""
+        return np.dtype(self.info["type"])
+
+    @property
+    def spacing(self) -> tuple[float, ...]:
+        """In the order of the array's axes: (z, y, x)."""
+        return tuple(self.info["spacing"][: self.ndim][::-1])
+
+    @property
+    def range(self) -> tuple[float, float]:
+        """The lowest and the highest sample, calibrated."""
+        low, high = (self._source.reported(value) for value in self._source.range())
+        return min(low, high), max(low, high)
+
+    @property
+    def is_store(self) -> bool:
+        """Is it read from a store? Else it is in memory."""
+        return self._source.is_store
+
+    @property
+    def interpolant(self) -> str:
+        """"trilinear" or "faces"."""
+        return self._source.interpolant
+
+    @property
+    def polarity(self) -> str:
+        """"high" or "low"."""
+        return str(self.info["polarity"])
+
+    @property
+    def volume(self) -> Array:
+        """The samples, read-only: a view where they are in memory; of a store all are read. Of low polarity they are negated."""
+        return self._source.volume(call()).samples
+
+    def save(self, path: Path) -> None:
+        """Writes the samples as .nrrd, .npy, .raw, .mha, .vti, .nii, .nii.gz or .tif, as ``isoatlas convert``."""
+        self._source.volume(call()).write(os.fspath(path))
+
+    def __repr__(self) -> str:
+        if self._open_source is None:
+            return "<isoatlas.Atlas: closed>"
+        low, high = self.range
+        name = self.info["path"] or "array"
+        return f"<isoatlas.Atlas of {name}: {' x '.join(map(str, self.shape))} {self.dtype}, values {low:g} .. {high:g}>"
+
+    def _repr_html_(self) -> str:
+        return _html.atlas(self)
+
+    # Tables.
+
+    @property
+    def objects(self) -> Table:
+        """The table of objects: those that noise does not explain, at most 24 lines, by rank."""
+        if self._objects is None:
+            self._objects = self.find_objects()
+        return self._objects
+
+    @property
+    def cavities(self) -> Table:
+        """The table of cavities: enclosed regions of low values, at most 24 lines, by rank."""
+        if self._cavities is None:
+            self._cavities = Table(self, _core.cavities(self._source, ROWS, True, None, call()), True)
+        return self._cavities
+
+    def find_objects(self, top: Optional[int] = None, *, all: bool = False, keep: Optional[int] = None, top_percent: Optional[float] = None,
+                     min_voxels: float = 0.0, min_measure: float = 0.0, min_persistence: float = 0.0, min_hypervolume: float = 0.0,
+                     progress: Progress = None, threads: int = 0) -> Table:
+        """Another table of objects.
+
+        Parameters
+        ----------
+        top : int, optional
+            At most so many lines; 0: any number. Default: 24, with all or a selection any number.
+        all : bool
+            Also what noise explains.
+        keep, top_percent, min_voxels, min_measure, min_persistence, min_hypervolume
+            A selection instead of the noise gate, as the options of ``isoatlas objects``; all conditions must hold.
+        """
+        slope = abs(self.info["slope"])
+        given = {"keep": keep, "top_percent": top_percent, "min_voxels": min_voxels, "min_measure": min_measure,
+                 "min_persistence": min_persistence / slope, "min_hypervolume": min_hypervolume / slope}
+        selection = {name: value for name, value in given.items() if value} or None
+        if top is None:
+            top = 0 if all or selection else ROWS
+        return Table(self, _core.objects(self._source, top, not all, selection, call(progress, threads)))
+
+    def object(self, reference: Reference) -> Object:
+        """An object by its number from 1, or as the command line calls it: ``3``, ``"3"``, ``"c2"`` (a cavity), ``"v81275"`` (by id).
+
+        Raises
+        ------
+        NotFoundError
+            There is none.
+        """
+        if isinstance(reference, Object):
+            return reference
+        found = re.fullmatch(r"([cv]?)([0-9]+)", str(reference))
+        if not found:
+            raise raised(InputError, f"an object cannot be {reference!r}", expected="a number, 'c' and that of a cavity, or 'v' and an id",
+                         next="atlas.objects lists them")
+        is_cavity, number = found[1] == "c", int(found[2])
+        table = self._numbered(is_cavity)
+        for one in table:
+            if number == (one.id if found[1] == "v" else one.number):
+                return one
+        what = "cavity" if is_cavity else "object"
+        raise raised(NotFoundError, f"there is no {what} {reference}", expected=f"1 to {len(table)}" if len(table) else "the table is empty",
+                     next="atlas.cavities lists them" if is_cavity else "atlas.objects lists them")
+
+    def _numbered(self, is_cavity: bool) -> Table:
+        if is_cavity not in self._known:
+            find = _core.cavities if is_cavity else _core.objects
+            self._known[is_cavity] = Table(self, find(self._source, KNOWN, True, None, call()), is_cavity)
+        return self._known[is_cavity]
+
+    def _first(self, count: int) -> list[Object]:
+        """The first lines that show more than background, if there are any."""
+        table = self.find_objects(0)
+        return [one for one in table if len(table) == 1 or not one.background][:count]
+
+    # One isovalue.
+
+    def surface(self, tau: float, *, objects: Sequence[int] = (), contours: Sequence[int] = (), boundary: str = "closed",
+                style: str = "compact", shell: str = "all", normals: bool = True, progress: Progress = None, threads: int = 0) -> Mesh:
+        """The surface at an isovalue, a closed mesh with points (x, y, z); of 2D volumes closed curves.
+
+        Parameters
+        ----------
+        tau : float
+            Isovalue. The object is where samples are >= tau.
+        objects : sequence of int
+            Ids of voxels: the objects at tau that contain them; empty: all.
+        contours : sequence of int
+            Ids of contours, as :meth:`objects_at` lists them; empty: all.
+        boundary : {"closed", "open"}
+            open: without the caps where objects reach the border of the volume.
+        style : {"compact", "full"}
+            full: the articulation points of the dissertation; the same topology with more triangles.
+        shell : {"all", "outer", "inner"}
+            inner: walls of cavities.
+        normals : bool
+
+        Raises
+        ------
+        NotFoundError
+            tau is outside the range of the samples, or there is no such object or contour.
+        """
+        return self._extract(self._source.stored(float(tau)), objects=objects, contours=contours, boundary=boundary, style=style, shell=shell,
+                             normals=normals, progress=progress, threads=threads)
+
+    def _extract(self, tau: float, *, objects: Sequence[int] = (), contours: Sequence[int] = (), boundary: str, style: str, shell: str,
+                 normals: bool, progress: Progress, threads: int) -> Mesh:
+        ids = [[int(i) for i in given] for given in (objects, contours)]
+        return Mesh(self._source.extract(tau, ids[0], ids[1], (boundary, style, shell), normals, call(progress, threads)))
+
+    def objects_at(self, tau: float, *, progress: Progress = None, threads: int = 0) -> list[dict[str, Any]]:
+        """Every object at an isovalue, the largest first: ``id``, ``voxels``, ``measure``, ``chi``, ``tunnels``, ``cavities``, ``box``
+        (inclusive bounds in voxels, x, y, z), ``contours`` (id, shell, genus)."""
+        return self._source.cut(self._source.stored(float(tau)), call(progress, threads))
+
+    def betti(self, tau: float, *, progress: Progress = None, threads: int = 0) -> tuple[int, int, int]:
+        """(b0, b1, b2) of where samples are >= tau: objects, tunnels, cavities. 2D: objects, holes, 0. Any finite tau."""
+        return tuple(self._source.betti(self._stored_any(tau), call(progress, threads)))
+
+    def _stored_any(self, tau: float) -> float:
+        if not np.isfinite(tau):
+            raise raised(InputError, "the isovalue is not finite", next="give a number")
+        return self._source.stored_of_any(float(tau))
+
+    def labels(self, tau: Optional[float] = None, *, keep: int = ROWS, objects: Sequence[Reference] = (), cavities: bool = False,
+               progress: Progress = None, threads: int = 0) -> Array:
+        """A label array, (z, y, x) uint32: each object of the table at its own best isovalue, or all objects at one isovalue.
+
+        Parameters
+        ----------
+        tau : float, optional
+            All objects at this isovalue: 1 is the largest. With cavities=True its cavities.
+        keep : int
+            Without tau: the first so many objects of the table that show more than background; labels are their numbers. A voxel in
+            several has the label of the innermost.
+        objects : sequence of references, optional
+            These objects instead, as :meth:`object` takes them.
+
+        Raises
+        ------
+        NotFoundError
+            tau is outside the range, or no object is above the noise.
+        """
+        if tau is not None:
+            stored, own = self._source.stored(float(tau)), call(progress, threads)
+            return (self._source.cavity_labels(stored, own) if cavities else self._source.labels(stored, [], own))[0]
+        return self._nested([(one.is_cavity, one.id, one._tau, label) for label, one in self._labelled(keep, objects)], progress, threads)
+
+    def _labelled(self, keep: int, objects: Sequence[Reference]) -> list[tuple[int, Object]]:
+        """Objects with their labels: their numbers; those of cavities follow the numbers of the table."""
+        chosen = [self.object(one) for one in objects] or self._first(keep)
+        if not chosen:
+            raise raised(NotFoundError, "no object of this volume is above the noise level",
+                         next="give tau, or atlas.find_objects(all=True) lists all")
+        table = len(self._numbered(False)) if any(one.is_cavity for one in chosen) else 0
+        return [(one.number + (table if one.is_cavity else 0), one) for one in chosen]
+
+    def _nested(self, parts: list[tuple[bool, int, float, int]], progress: Progress, threads: int) -> Array:
+        return self._source.nested_labels(parts, call(progress, threads))
+
+    def save_labels(self, path: Path, tau: Optional[float] = None, *, keep: int = ROWS, objects: Sequence[Reference] = (),
+                    cavities: bool = False, progress: Progress = None, threads: int = 0) -> list[str]:
+        """Writes what :meth:`labels` returns, as ``isoatlas label``: .seg.nrrd, .nrrd, .nii, .nii.gz or .tif; returns warnings."""
+        labels = self.labels(tau, keep=keep, objects=objects, cavities=cavities, progress=progress, threads=threads)
+        if tau is not None:
+            self._source.write_labels(os.fspath(path), labels, self._source.stored(float(tau)), cavities)
+            return []
+        counts = np.bincount(labels.ravel())
+        segments = []
+        for label, one in sorted(self._labelled(keep, objects), key=lambda pair: pair[0]):
+            name = f"{'cavity' if one.is_cavity else 'object'} {one.number}"
+            voxels = int(counts[label]) if label < len(counts) else 0
+            segments.append((label, name, one.colour, one.best_tau, voxels, self.polarity))
+        return self._source.write_segments(os.fspath(path), labels, segments)
+
+    def zones(self, *, progress: Progress = None, threads: int = 0) -> Array:
+        """The zone of every voxel, (z, y, x) uint32: the index of its event in :attr:`tree`, plus 1."""
+        return self._source.zones(call(progress, threads))[0]
+
+    # All isovalues.
+
+    @property
+    def tree(self) -> Tree:
+        """The criticality tree as arrays."""
+        return Tree(self)
+
+    def persistence(self, dimension: int = 0, *, min_persistence: float = 0.0, progress: Progress = None, threads: int = 0) -> Array:
+        """Persistence pairs of the sets where samples are >= tau: (n, 2), birth and death; birth is above death, as tau falls.
+
+        Parameters
+        ----------
+        dimension : {0, 1}
+            0: objects, by the elder rule; the one that never merges has death -inf. 1: tunnels, as ``isoatlas handles --exact``.
+        min_persistence : float
+            Pairs of less are left out.
+
+        Notes
+        -----
+        ``-persistence`` are the pairs of sublevel sets of ``-volume`` in ascending order, as gudhi and persim plot them. An atlas of
+        polarity "low" has the pairs of sublevel sets of the volume.
+        """
+        if dimension == 0:
+            pairs = _core.object_pairs(self._source, call(progress, threads))
+        elif dimension == 1:
+            stored = min_persistence / abs(self.info["slope"])
+            pairs = _core.handles(self._source, True, stored, -1, call(progress, threads))["pairs"]
+        else:
+            raise raised(UnsupportedError, f"persistence of dimension {dimension}", expected="0 (objects) or 1 (tunnels)",
+                         next="atlas.cavities lists cavities with the isovalues at which they appear and merge")
+        return pairs[np.abs(pairs[:, 0] - pairs[:, 1]) >= min_persistence]
+
+    def handles(self, *, exact: bool = True, min_persistence: float = 0.0, object: Optional[Reference] = None, progress: Progress = None,
+                threads: int = 0) -> Handles:
+        """Tunnels with the isovalues at which each opens and closes, by descending persistence.
+
+        Parameters
+        ----------
+        exact : bool
+            False: from the trees alone; how many tunnels there are is exact, single pairs are not.
+        object : reference, optional
+            Only those of this object.
+        """
+        if object is not None and not exact:
+            raise raised(InputError, "tunnels of one object are exact ones", next="leave exact out")
+        voxel = -1 if object is None else self.object(object).id
+        stored = min_persistence / abs(self.info["slope"])
+        return Handles(_core.handles(self._source, exact, stored, voxel, call(progress, threads)))
+
+    def spectrum(self, samples: int = 24, *, progress: Progress = None, threads: int = 0) -> Spectrum:
+        """Numbers of objects, contours, tunnels and cavities at all isovalues, and sizes of the surface at so many."""
+        return Spectrum(self, samples, progress, threads)
+
+    def measures(self, tau: float, *, objects: Sequence[int] = (), thickness: bool = False) -> list[dict[str, Any]]:
+        """Volume, area, shape and values of the objects at an isovalue, as ``isoatlas measure``; objects: ids, empty: all."""
+        return self._measures(self._source.stored(float(tau)), objects, thickness)
+
+    def _measures(self, tau: float, objects: Sequence[int], thickness: bool) -> list[dict[str, Any]]:
+        from ._pictures import measures
+        return measures(self._source, tau, objects, thickness)
+
+    def verify(self, *, levels: int = 8, full: bool = False, seed: int = 1, strict: bool = True, progress: Progress = None,
+               threads: int = 0) -> tuple[Check, ...]:
+        """Checks the guarantees for this volume or store, as ``isoatlas verify``.
+
+        Raises
+        ------
+        VerificationError
+            One does not hold, unless strict is False.
+        """
+        return checked(self._source.verify(levels, full, seed, call(progress, threads)), strict)
+
+    def view(self, *, height: int = 700, port: int = 0) -> Any:
+        """The navigator in a notebook cell: see :class:`isoatlas.View`."""
+        from ._view import View
+        return View(self, height=height, port=port)
+
+
+def _open_again(source: Any, options: dict[str, Any]) -> Atlas:
+    return open(source, **options)

@@ -1,0 +1,203 @@
+// The class Source: surfaces, cuts and labels at isovalues. Isovalues are stored ones unless a name says "reported".
+#include <memory>
+#include <string>
+
+#include <isoatlas/cavities.h>
+#include <isoatlas/isovalue.h>
+#include <isoatlas/nested_labels.h>
+#include <isoatlas/output.h>
+#include <isoatlas/segmentation.h>
+#include <isoatlas/verify.h>
+
+#include "arrays.h"
+#include "call.h"
+#include "core.h"
+#include "source.h"
+#include "words.h"
+
+namespace py = pybind11;
+
+namespace isoatlas::python {
+namespace {
+
+using Indices = std::vector<std::int64_t>;
+
+std::shared_ptr<Source> of_volume(std::shared_ptr<Volume> volume, const std::string& interpolant, double tunnel_height) {
+    return std::make_shared<Source>(std::move(volume),
+                                    AnalysisOptions{.interpolant = interpolant_of(interpolant), .tunnel_height = tunnel_height});
+}
+
+std::shared_ptr<Source> of_store(const std::string& path, const std::optional<std::string>& polarity, const py::dict& corrections) {
+    AtlasOptions options;
+    if (polarity) options.polarity = polarity_of(*polarity);
+    const OpenOptions given = open_options_of(corrections);
+    options.corrections = {given.spacing, given.origin, given.unit, given.value_unit};
+    return long_call({}, [&](const Context&) { return std::make_shared<Source>(path, options); });
+}
+
+
+std::shared_ptr<Surface> extract(Source& source, double tau, const Indices& objects, const Indices& contours,
+                                 const std::tuple<std::string, std::string, std::string>& words, bool normals, const CallOptions& call) {
+    SurfaceOptions options;
+    const auto& [boundary, style, shell] = words;
+    options.boundary = boundary_of(boundary), options.style = style_of(style), options.shell = shell_of(shell);
+    options.objects = objects, options.contours = contours, options.normals = normals;
+    return long_call(call, [&](const Context& context) { return std::make_shared<Surface>(source.extract(tau, options, context)); });
+}
+
+template <class Entry>
+py::list boxed(const Entry& entry) {
+    py::list box;
+    box.append(py::cast(entry.box_low.along));
+    box.append(py::cast(entry.box_high.along));
+    return box;
+}
+
+/// The objects at an isovalue, as dicts.
+py::list cut_at(Source& source, double tau, const CallOptions& call) {
+    const Cut cut = long_call(call, [&](const Context& context) { return source.cut(tau, false, context); });
+    py::list objects;
+    for (const CutObject& object : cut.objects) {
+        py::dict dict;
+        dict["id"] = object.id;
+        dict["voxels"] = object.voxels;
+        dict["measure"] = object.measure;
+        dict["chi"] = object.chi;
+        dict["tunnels"] = object.b1;
+        dict["cavities"] = object.b2;
+        dict["box"] = boxed(object);
+        py::list contours;
+        for (std::int64_t i = object.first_contour; i < object.first_contour + object.contour_count; ++i) {
+            const CutContour& contour = cut.contours[static_cast<std::size_t>(i)];
+            contours.append(py::make_tuple(contour.id, contour.shell == Shell::outer ? "outer" : "inner", contour.genus));
+        }
+        dict["contours"] = contours;
+        objects.append(dict);
+    }
+    return objects;
+}
+
+/// (b0, b1, b2) of all objects at an isovalue.
+std::array<std::int64_t, 3> betti_at(Source& source, double tau, const CallOptions& call) {
+    return long_call(call, [&](const Context& context) {
+        const Cut cut = source.cut(tau, false, context);
+        std::array<std::int64_t, 3> betti{static_cast<std::int64_t>(cut.objects.size()), 0, 0};
+        for (const CutObject& object : cut.objects) betti[1] += object.b1, betti[2] += object.b2;
+        return betti;
+    });
+}
+
+py::tuple labels_at(Source& source, double tau, const Indices& objects, const CallOptions& call) {
+    std::int64_t count = 0;
+    std::vector<std::uint32_t> labels = long_call(call, [&](const Context& context) {
+        const Cut cut = source.cut(tau, true, context);
+        count = static_cast<std::int64_t>(cut.objects.size());
+        return object_labels(cut, objects);
+    });
+    return py::make_tuple(moved_array(std::move(labels), shape_of(source.info().extent)), count);
+}
+
+py::tuple cavity_labels_at(Source& source, double tau, const CallOptions& call) {
+    Indices ids;
+    std::vector<std::uint32_t> labels = long_call(call, [&](const Context& context) {
+        return label_cavities(*source.volume(context), *source.trees(context), tau, ids, context);
+    });
+    return py::make_tuple(moved_array(std::move(labels), shape_of(source.info().extent)), py::cast(ids));
+}
+
+/// is_cavity, voxel, isovalue, label
+using Part = std::tuple<bool, std::int64_t, double, std::uint32_t>;
+
+py::array nested_labels_of(Source& source, const std::vector<Part>& given, const CallOptions& call) {
+    std::vector<NestedPart> parts;
+    for (const auto& [is_cavity, voxel, tau, label] : given) parts.push_back({is_cavity, voxel, tau, label});
+    std::vector<std::uint32_t> labels = long_call(call, [&](const Context& context) {
+        const NestedSource at{[&](double tau) { return source.cut(tau, true, context).label; },
+                              [&](double tau) {
+                                  Indices ids;
+                                  return label_cavities(*source.volume(context), *source.trees(context), tau, ids, context);
+                              }};
+        return nested_labels(source.info().extent.voxels(), parts, at);
+    });
+    return moved_array(std::move(labels), shape_of(source.info().extent));
+}
+
+py::tuple zones_of(Source& source, const CallOptions& call) {
+    std::int64_t count = 0;
+    std::vector<std::uint32_t> labels = long_call(call, [&](const Context& context) {
+        const std::shared_ptr<const Analysis> zones = source.zones(context);
+        count = zones->event_count();
+        std::vector<std::uint32_t> of_voxel(static_cast<std::size_t>(source.info().extent.voxels()));
+        for (const VoxelId voxel : ids<VoxelId>(source.info().extent.voxels())) {
+            if (voxel.number() % (1 << 20) == 0 && context.cancelled()) throw Error(ErrorKind::cancelled, {.what = "cancelled"});
+            of_voxel[voxel.index()] = static_cast<std::uint32_t>(zones->zone(voxel).number() + 1);
+        }
+        return of_voxel;
+    });
+    return py::make_tuple(moved_array(std::move(labels), shape_of(source.info().extent)), count);
+}
+
+/// number, name, colour, reported isovalue, voxels, polarity
+using SegmentTuple = std::tuple<std::int64_t, std::string, std::array<std::uint8_t, 3>, double, std::int64_t, std::string>;
+
+std::vector<std::string> write_segments(const Source& source, const std::string& path, const py::array_t<std::uint32_t>& labels,
+                                        const std::vector<SegmentTuple>& given) {
+    std::vector<Segment> segments;
+    for (const auto& [number, name, colour, isovalue, voxels, polarity] : given)
+        segments.push_back({number, name, colour, isovalue, voxels, polarity_of(polarity)});
+    const std::span<const std::uint32_t> of_voxel(labels.data(), static_cast<std::size_t>(labels.size()));
+    return long_call({}, [&](const Context&) { return write_segmentation(path, of_voxel, segments, source.info()); });
+}
+
+/// tau: None for zones.
+void write_label_file(const Source& source, const std::string& path, const py::array_t<std::uint32_t>& labels,
+                      const std::optional<double>& tau, bool cavities) {
+    const LabelOrigin origin{
+        .interpolant = source.interpolant(), .tunnel_height = source.tunnel_height(), .tau = tau, .cavities = cavities};
+    const std::span<const std::uint32_t> of_voxel(labels.data(), static_cast<std::size_t>(labels.size()));
+    long_call({}, [&](const Context&) { write_labels(path, source.info(), of_voxel, origin); });
+}
+
+py::list verify(Source& source, int levels, bool full, std::uint64_t seed, const CallOptions& call) {
+    const std::vector<CheckResult> checks = long_call(call, [&](const Context& context) {
+        if (source.is_store()) return verify_atlas(source.atlas(), {.levels = levels, .full = full, .seed = seed}, context);
+        const VerifyOptions options{.levels = levels, .interpolant = source.interpolant(), .tunnel_height = source.tunnel_height()};
+        return verify_volume(*source.volume(context), options, context);
+    });
+    py::list list;
+    for (const CheckResult& check : checks) list.append(py::make_tuple(check.name, check.holds, check.detail));
+    return list;
+}
+
+}  // namespace
+
+void add_sources(py::module_& module) {
+    py::class_<Source, std::shared_ptr<Source>>(module, "Source")
+        .def_static("of_volume", &of_volume, py::arg("volume"), py::arg("interpolant"), py::arg("tunnel_height"))
+        .def_static("of_store", &of_store, py::arg("path"), py::arg("polarity"), py::arg("corrections"))
+        .def_property_readonly("info", [](const Source& source) { return dict_of(source.info()); })
+        .def_property_readonly("is_store", &Source::is_store)
+        .def_property_readonly("interpolant", [](const Source& source) { return name_of(source.interpolant()); })
+        .def_property_readonly("tunnel_height", &Source::tunnel_height)
+        .def("range", &Source::range, py::call_guard<py::gil_scoped_release>())
+        .def("stored", &Source::stored, py::arg("reported"), py::call_guard<py::gil_scoped_release>())
+        .def("stored_of_any", [](const Source& source, double reported) { return stored_isovalue(source.info(), reported); })
+        .def("reported", [](const Source& source, double stored) { return source.info().calibration.reported(stored); })
+        .def("volume",
+             [](Source& source, const CallOptions& call) {
+                 return long_call(call, [&](const Context& context) { return std::const_pointer_cast<Volume>(source.volume(context)); });
+             })
+        .def("extract", &extract, py::arg("tau"), py::arg("objects"), py::arg("contours"), py::arg("words"), py::arg("normals"),
+             py::arg("call"))
+        .def("cut", &cut_at, py::arg("tau"), py::arg("call"))
+        .def("betti", &betti_at, py::arg("tau"), py::arg("call"))
+        .def("labels", &labels_at, py::arg("tau"), py::arg("objects"), py::arg("call"))
+        .def("cavity_labels", &cavity_labels_at, py::arg("tau"), py::arg("call"))
+        .def("nested_labels", &nested_labels_of, py::arg("parts"), py::arg("call"))
+        .def("zones", &zones_of, py::arg("call"))
+        .def("write_segments", &write_segments, py::arg("path"), py::arg("labels"), py::arg("segments"))
+        .def("write_labels", &write_label_file, py::arg("path"), py::arg("labels"), py::arg("tau"), py::arg("cavities"))
+        .def("verify", &verify, py::arg("levels"), py::arg("full"), py::arg("seed"), py::arg("call"));
+}
+
+}  // namespace isoatlas::python
