@@ -1,0 +1,16 @@
+"""The module of C++ that draws and measures: it links Embree, and is loaded when it is first used."""
+from typing import Any, Optional, Sequence
+
+import numpy as np
+
+from . import _core
+
+_Array = np.ndarray[Any, Any]
+
+def render(surfaces: Sequence[tuple[_core.Surface, Sequence[int], float, str]], source: Optional[_core.Source], draws_volume: bool,
+           slices: Sequence[tuple[int, int]], view: Optional[Sequence[float]], up: Sequence[float], options: dict[str, Any],
+           call: _core.Call) -> _Array: ...
+def colour_of(number: int, is_cavity: bool) -> list[int]: ...
+def write_image(path: str, image: _Array) -> None: ...
+def write_animation(path: str, frames: Sequence[_Array], frames_per_second: float) -> None: ...
+def measures(source: _core.Source, tau: float, objects: list[int], thickness: bool, call: _core.Call) -> list[dict[str, Any]]: ...
