@@ -30,6 +30,9 @@ demo|libzstd-dev|the same
 demo|nodejs|bundles the page
 demo|npm|bundles the page
 demo|libcli11-dev|command line
+demo|pybind11-dev|the Python package
+demo|python3-dev|the same
+demo|python3-numpy|its arrays
 demo|libfmt-dev|text output of the command line
 demo|nlohmann-json3-dev|JSON output of the command line
 test|libgtest-dev|test framework
@@ -38,7 +41,12 @@ test|libcgal-dev|exact predicates: surfaces must not cross themselves
 test|python3|layering test, schema test, documentation test
 test|assimp-utils|independent reader of the surfaces we write
 test|python3-vtk9|independent reader of the surfaces and trees we write
-test|python3-numpy|arrays of python3-vtk9
+test|python3-pytest|tests of the Python package
+test|python3-scipy|independent labels
+test|python3-skimage|independent surfaces
+test|python3-pandas|tables of the Python package
+test|python3-meshio|meshes of the Python package
+test|python3-mypy|types of the Python package
 test|python3-nibabel|independent reader of the NIfTI files we write
 test|python3-tifffile|independent reader of the TIFF files we write
 test|chromium|opens the page

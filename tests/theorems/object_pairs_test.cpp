@@ -8,6 +8,8 @@
 #include <set>
 
 #include "oracle/compare.h"
+#include "oracle/difference.h"
+#include "oracle/stores.h"
 #include "oracle/volumes.h"
 
 namespace oracle {

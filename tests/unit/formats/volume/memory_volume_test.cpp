@@ -48,9 +48,9 @@ TEST(SlabReaders, LoadWhatTheirFunctionReads) {
 TEST(MissingSamples, OfAVolumeInMemoryAreThoseOfItsReader) {
     using Action = MissingPolicy::Action;
     const std::vector<float> samples = with_gap();
-    const std::vector<MissingPolicy> policies{{.action = Action::below},
-                                              {.action = Action::above},
-                                              {.action = Action::replace, .value = 3},
+    const std::vector<MissingPolicy> policies{{.action = Action::below, .no_data = {}},
+                                              {.action = Action::above, .no_data = {}},
+                                              {.action = Action::replace, .value = 3, .no_data = {}},
                                               {.action = Action::replace, .value = 3, .no_data = 5.0}};
     for (const MissingPolicy& policy : policies) {
         Volume volume = borrowed(samples);
@@ -80,7 +80,7 @@ TEST(MissingSamples, ThatAreNotThereLeaveTheSamplesWhereTheyAre) {
     std::vector<float> samples = with_gap();
     samples[7] = 7;
     Volume volume = borrowed(samples);
-    replace_missing(volume, {.action = MissingPolicy::Action::below});
+    replace_missing(volume, {.action = MissingPolicy::Action::below, .no_data = {}});
     EXPECT_EQ(static_cast<const void*>(std::as_const(volume).bytes.data()), samples.data());
 }
 

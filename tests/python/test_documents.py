@@ -1,0 +1,58 @@
+"""The reference is current, examples run, types are right, docstrings say what they must."""
+import doctest
+import importlib.util
+import inspect
+import os
+import pathlib
+import subprocess
+import sys
+
+import pytest
+
+import isoatlas
+from conftest import SOURCE
+
+EXAMPLES = sorted((SOURCE / "python" / "examples").glob("*.py"))
+ENVIRONMENT = dict(os.environ, PYTHONPATH=os.pathsep.join(sys.path))
+
+
+def test_the_reference_is_what_the_docstrings_say():
+    done = subprocess.run([sys.executable, SOURCE / "scripts" / "python_reference.py", "--check"], capture_output=True, text=True,
+                          env=ENVIRONMENT)
+    assert done.returncode == 0, done.stderr
+
+
+@pytest.mark.parametrize("example", EXAMPLES, ids=lambda path: path.stem)
+def test_examples_run(example, tmp_path):
+    assert len(example.read_text().splitlines()) <= 25
+    needed = [line.split()[1] for line in example.read_text().splitlines() if line.startswith("import ")]
+    for package in needed:
+        if importlib.util.find_spec(package.split(".")[0]) is None:
+            pytest.skip(f"{package} is not installed")
+    done = subprocess.run([sys.executable, example], cwd=tmp_path, capture_output=True, text=True, env=ENVIRONMENT)
+    assert done.returncode == 0 and done.stdout, done.stderr
+
+
+def test_docstrings_have_what_they_must():
+    for name in isoatlas.__all__:
+        what = getattr(isoatlas, name)
+        assert what.__doc__, name
+        for member_name, member in vars(what).items() if inspect.isclass(what) else []:
+            function = member.fget if isinstance(member, property) else member
+            if not member_name.startswith("_") and inspect.isfunction(function):
+                documented = function.__doc__ or member_name in ("points", "triangles", "segments", "normals", "object_ids", "contour_ids",
+                                                                 "tau", "closed", "space", "unit", "interpolant", "polarity")
+                assert documented, f"{name}.{member_name}"
+    assert "(z, y, x)" in isoatlas.open.__doc__.splitlines()[0] and "(x, y, z)" in isoatlas.open.__doc__.splitlines()[0]
+    assert not doctest.testmod(sys.modules["isoatlas._functions"]).failed
+
+
+def test_the_package_and_its_examples_are_typed():
+    if importlib.util.find_spec("mypy") is None:
+        pytest.skip("python3-mypy is not installed")
+    package = pathlib.Path(isoatlas.__file__).parent
+    command = [sys.executable, "-m", "mypy", "--strict", "--ignore-missing-imports", "--cache-dir", os.devnull]
+    done = subprocess.run([*command, "-p", "isoatlas"], capture_output=True, text=True, env=dict(ENVIRONMENT, MYPYPATH=str(package.parent)))
+    assert done.returncode == 0, done.stdout
+    done = subprocess.run([*command, *EXAMPLES], capture_output=True, text=True, env=dict(ENVIRONMENT, MYPYPATH=str(package.parent)))
+    assert done.returncode == 0, done.stdout
