@@ -90,7 +90,7 @@ def marching_cubes(volume: Any, level: Optional[float] = None, *, spacing: Spaci
     spacing : (float, float, float)
         Of the samples along z, y, x.
     gradient_direction : {"descent", "ascent"}
-        descent: objects are where values are higher; ascent turns triangles and normals around.
+        descent: objects are where values are higher; ascent turns the triangles around.
     step_size : int
         Takes every so many-th sample.
     allow_degenerate : bool
@@ -108,6 +108,7 @@ def marching_cubes(volume: Any, level: Optional[float] = None, *, spacing: Spaci
         In the order of the array's axes, times spacing.
     triangles : (m, 3) int64
     normals : (n, 3) float32
+        Towards lower values, perpendicular to the surface for any spacing.
     values : (n,) float32
         The largest sample of the cell around each point.
 
@@ -130,17 +131,17 @@ def marching_cubes(volume: Any, level: Optional[float] = None, *, spacing: Spaci
     if array.ndim != 3 or min(array.shape) < 2:
         raise raised(InputError, f"the array has the shape {array.shape}", expected="three axes of at least 2 samples",
                      next="isoatlas.open(array).surface(level) has curves of 2D arrays")
+    if level is None:
+        level = (float(array.min()) + float(array.max())) / 2
     array = array[::step_size, ::step_size, ::step_size]
     steps = np.array(_arrays.numbers_of("spacing", spacing if np.ndim(spacing) else [spacing] * 3, (3,))) * step_size
     atlas = open(array, spacing=tuple(steps), interpolant=interpolant)
-    if level is None:
-        level = sum(atlas.range) / 2
     mesh = atlas.surface(level, boundary=boundary, progress=progress, threads=threads)
     points, triangles = np.ascontiguousarray(mesh.points[:, ::-1]), mesh.triangles
     normals = np.ascontiguousarray(mesh.normals[:, ::-1])
     # With the axes the other way round the triangles are, too: that is how scikit-image has them in "descent".
     if gradient_direction == "ascent":
-        triangles, normals = np.ascontiguousarray(triangles[:, ::-1]), -normals
+        triangles = np.ascontiguousarray(triangles[:, ::-1])
     return points, triangles, normals, _largest_around(array, points / steps)
 
 

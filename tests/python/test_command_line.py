@@ -64,7 +64,7 @@ def test_the_table(both, cli):
 def test_cavities(cli, tmp_path):
     array = VOLUMES["demo"]()
     isoatlas.write(tmp_path / "v.nrrd", array)
-    lines, atlas = json.loads(cli("objects", "v.nrrd", "--cavities", "--json"))["cavities"], isoatlas.open(array)
+    lines, atlas = json.loads(cli("objects", "v.nrrd", "--cavities", "--json"))["objects"], isoatlas.open(array)
     assert [(line["id"], line["best_tau"], line["voxels"]) for line in lines] == \
         [(one.id, one.best_tau, one.voxels) for one in atlas.cavities] != []
     cli("extract", "v.nrrd", "--object", "c1", "-o", "cli.ply")
@@ -166,8 +166,8 @@ def test_pictures_and_measures(cli, tmp_path):
 
 def test_phantoms_and_conversions(cli, tmp_path):
     for name in ("torus-chain", "noise"):
-        cli("phantom", name, "--size", 16, "-o", f"{name}.npy")
-        assert np.array_equal(np.load(tmp_path / f"{name}.npy"), isoatlas.phantom(name, 16))
+        cli("phantom", name, "--size", 24, "-o", f"{name}.npy")
+        assert np.array_equal(np.load(tmp_path / f"{name}.npy"), isoatlas.phantom(name, 24))
     array = VOLUMES["noise"]()
     isoatlas.write(tmp_path / "v.nrrd", array, spacing=(3, 2, 1), unit="mm")
     for extension in ("npy", "mha", "vti", "nii", "tif"):
