@@ -78,8 +78,8 @@ def native(array: Any) -> np.ndarray[Any, Any]:
     if array.dtype.newbyteorder("=").str[1:] not in TYPES:
         raise raised(UnsupportedError, f"samples of type {array.dtype} are not read",
                      expected="integers of 8, 16 or 32 bits, float32 or float64", next="array.astype(...) makes one of these")
-    array = np.ascontiguousarray(array, dtype=array.dtype.newbyteorder("="))
-    return array if array.flags.aligned else array.copy()
+    result: np.ndarray[Any, Any] = np.ascontiguousarray(array, dtype=array.dtype.newbyteorder("="))
+    return result if result.flags.aligned else result.copy()
 
 
 def _narrowed(array: np.ndarray[Any, Any]) -> np.ndarray[Any, Any]:

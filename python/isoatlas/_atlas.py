@@ -4,7 +4,7 @@ from __future__ import annotations
 import os
 import re
 import tempfile
-from typing import Any, Mapping, Optional, Sequence, Union
+from typing import TYPE_CHECKING, Any, Mapping, Optional, Sequence, Union
 
 import numpy as np
 
@@ -15,6 +15,9 @@ from ._mesh import Array, Check, Mesh, Path, checked
 from ._objects import Object, Table
 from ._tree import Handles, Spectrum, Tree
 from .errors import InputError, NotFoundError, UnsupportedError, raised
+
+if TYPE_CHECKING:
+    from ._view import View
 
 Memory = Union[None, int, str]
 Reference = Union[Object, int, str]
@@ -98,7 +101,7 @@ def open(source: Any, *, spacing: Spacing = None, origin: Any = None, direction:
     memory : int or str, optional
         Builds a store within this memory ("4G"), for volumes that are larger. Without it the volume is in memory.
     store : path, optional
-        Where that store is kept; else it is a temporary file that ends with the atlas. If the file is there it must be of this volume.
+        Where that store is kept; else it is a temporary file that ends with the atlas.
     progress : bool or callable, optional
         True: a bar (tqdm where it is installed); a function: called with the phase and the part, 0 to 1.
     threads : int
@@ -454,7 +457,8 @@ class Atlas:
 
     def betti(self, tau: float, *, progress: Progress = None, threads: int = 0) -> tuple[int, int, int]:
         """(b0, b1, b2) of where samples are >= tau: objects, tunnels, cavities. 2D: objects, holes, 0. Any finite tau."""
-        return tuple(self._source.betti(self._stored_any(tau), call(progress, threads)))
+        b0, b1, b2 = self._source.betti(self._stored_any(tau), call(progress, threads))
+        return b0, b1, b2
 
     def _stored_any(self, tau: float) -> float:
         if not np.isfinite(tau):
@@ -546,7 +550,8 @@ class Atlas:
         else:
             raise raised(UnsupportedError, f"persistence of dimension {dimension}", expected="0 (objects) or 1 (tunnels)",
                          next="atlas.cavities lists cavities with the isovalues at which they appear and merge")
-        return pairs[np.abs(pairs[:, 0] - pairs[:, 1]) >= min_persistence]
+        kept: Array = pairs[np.abs(pairs[:, 0] - pairs[:, 1]) >= min_persistence]
+        return kept
 
     def handles(self, *, exact: bool = True, min_persistence: float = 0.0, object: Optional[Reference] = None, progress: Progress = None,
                 threads: int = 0) -> Handles:
@@ -588,10 +593,10 @@ class Atlas:
         """
         return checked(self._source.verify(levels, full, seed, call(progress, threads)), strict)
 
-    def view(self, *, height: int = 700, port: int = 0) -> Any:
-        """The navigator in a notebook cell: see :class:`isoatlas.View`."""
+    def view(self, *, port: int = 0) -> View:
+        """The navigator, in a browser tab: see :class:`isoatlas.View`."""
         from ._view import View
-        return View(self, height=height, port=port)
+        return View(self, port=port)
 
 
 def _open_again(source: Any, options: dict[str, Any]) -> Atlas:

@@ -134,7 +134,7 @@ def marching_cubes(volume: Any, level: Optional[float] = None, *, spacing: Spaci
     if level is None:
         level = (float(array.min()) + float(array.max())) / 2
     array = array[::step_size, ::step_size, ::step_size]
-    steps = np.array(_arrays.numbers_of("spacing", spacing if np.ndim(spacing) else [spacing] * 3, (3,))) * step_size
+    steps = np.array((_arrays.spacing_of(spacing, 3) or [1.0, 1.0, 1.0])[::-1]) * step_size
     atlas = open(array, spacing=tuple(steps), interpolant=interpolant)
     mesh = atlas.surface(level, boundary=boundary, progress=progress, threads=threads)
     points, triangles = np.ascontiguousarray(mesh.points[:, ::-1]), mesh.triangles

@@ -68,7 +68,7 @@ class Object:
         self.appears: float = row["appears"]
         self.merges: float = row["merges"]
         self.best_tau: float = row["best_tau"]
-        self.tau_range: tuple[float, float] = tuple(row["tau_range"])
+        self.tau_range: tuple[float, float] = (row["tau_range"][0], row["tau_range"][1])
         self.voxels: int = row["voxels"]
         self.measure: float = row["measure"]
         self.tunnels: int = row["tunnels"]
@@ -76,7 +76,7 @@ class Object:
         self.islands: int = row.get("islands", 0)
         self.hypervolume: float = row["hypervolume"]
         self.index: tuple[int, ...] = tuple(int(i) for i in np.unravel_index(self.id, atlas.shape))
-        self.position: tuple[float, float, float] = tuple(row["position"])
+        self.position: tuple[float, float, float] = (row["position"][0], row["position"][1], row["position"][2])
         self.reason: Optional[str] = row["reason"]
         self.why: Optional[str] = row["why"]
         self.isovalues = tuple(Isovalue(*one[:4]) for one in row["isovalues"])
