@@ -212,8 +212,8 @@ decltype(auto) visit_samples(const Volume& volume, Function&& function) {
 /// The same policy for a volume that is in memory: what load_volume() does to the samples of a file, the calibration included. Borrowed
 /// samples are copied if one is missing, or the calibration changes them. Throws Error as load_volume(). Cost: O(volume) time.
 void replace_missing(Volume& volume, const MissingPolicy& missing = {}, const Context& context = {});
-/// A reader of samples that come from elsewhere: an array of another program, a file in pieces. read(z_begin, z_end, out) is called from one
-/// thread as VolumeReader::read() is, in any order and more than once, and fills `out` with samples of info.type in host byte order.
+/// A reader of samples that come from elsewhere: an array of another program, a file in pieces. read(z_begin, z_end, out) is called from
+/// one thread as VolumeReader::read() is, in any order and more than once, and fills `out` with samples of info.type in host byte order.
 /// Throws Error{usage} for an info whose sizes are below 1.
 [[nodiscard]] std::unique_ptr<VolumeReader> slab_reader(
     VolumeInfo info, std::function<void(std::int64_t z_begin, std::int64_t z_end, std::span<std::byte> out)> read);

@@ -13,10 +13,11 @@ from __future__ import annotations
 from typing import Any
 
 from . import _core
-from ._atlas import Atlas, build, open
+from ._atlas import Atlas
 from ._functions import betti, euler_number, info, label, marching_cubes, phantom, phantoms, read, save_meshes, verify, write
 from ._mesh import Check, Mesh, read_mesh
 from ._objects import Isovalue, Object, Table
+from ._open import build, open
 from ._tree import Columns, Handles, Spectrum, Tree
 from .errors import Error, InputError, InternalError, NotFoundError, ResourceError, UnsupportedError, VerificationError
 

@@ -8,9 +8,10 @@ import numpy as np
 
 from . import _arrays, _core
 from ._arrays import Spacing
-from ._atlas import Atlas, open, reading_options
+from ._atlas import Atlas
 from ._calls import Progress, call
-from ._mesh import Array, Check, Mesh, Path, checked, read_mesh
+from ._mesh import Array, Check, Mesh, Path, read_mesh
+from ._open import open, reading_options
 from .errors import InputError, UnsupportedError, raised
 
 
@@ -240,5 +241,5 @@ def save_meshes(path: Path, meshes: Any, *, names: Any = None, colours: Any = No
     return _core.write_surfaces(os.fspath(path), parts, space)
 
 
-__all__ = ["betti", "checked", "euler_number", "info", "label", "marching_cubes", "phantom", "phantoms", "read", "save_meshes", "verify",
+__all__ = ["betti", "euler_number", "info", "label", "marching_cubes", "phantom", "phantoms", "read", "save_meshes", "verify",
            "write"]

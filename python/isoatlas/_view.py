@@ -32,7 +32,7 @@ class View:
     """
 
     def __init__(self, atlas: Atlas, *, port: int = 0) -> None:
-        from ._atlas import build
+        from ._open import build
         self._atlas = atlas
         self._folder: Optional[tempfile.TemporaryDirectory[str]] = None
         path = atlas.info["path"] if atlas.is_store else ""

@@ -3,6 +3,8 @@
 #include <optional>
 #include <string>
 
+#include "call.h"
+
 namespace py = pybind11;
 
 namespace isoatlas::python {
@@ -38,15 +40,6 @@ Extent extent_of(const py::array& array) {
         extent.size[static_cast<std::size_t>(rank - 1 - axis)] = array.shape(axis);
     }
     return extent;
-}
-
-std::shared_ptr<const void> keep_alive(py::object object) {
-    const auto release = [](py::object* kept) {
-        if (Py_IsInitialized() == 0) return;  // the interpreter has ended, and its memory with it
-        const py::gil_scoped_acquire acquired;
-        delete kept;
-    };
-    return std::shared_ptr<py::object>(new py::object(std::move(object)), release);
 }
 
 Volume borrow_array(const py::array& array, const Geometry& geometry) {

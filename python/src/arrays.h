@@ -4,7 +4,6 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <memory>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -28,9 +27,6 @@ using Shape = std::vector<pybind11::ssize_t>;
 
 /// A volume whose samples are those of the array, which it keeps alive. The array is C-contiguous and aligned, of one of the eight types.
 [[nodiscard]] Volume borrow_array(const pybind11::array& array, const Geometry& geometry);
-
-/// Something that Python must release, kept alive from C++: its last owner may be any thread.
-[[nodiscard]] std::shared_ptr<const void> keep_alive(pybind11::object object);
 
 /// Elements of one row of a table of numbers.
 template <class T>

@@ -14,6 +14,7 @@ void add_calls(py::module_& module) {
     py::class_<CallOptions>(module, "Call")
         .def(py::init([](int threads, py::object progress) { return CallOptions{threads, std::move(progress)}; }), py::arg("threads") = 0,
              py::arg("progress") = py::none());
+    py::module_::import("atexit").attr("register")(py::cpp_function(&wait_for_abandoned_calls));
     module.def("trim_memory_pool", &trim_memory_pool);
 }
 

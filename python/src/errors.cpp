@@ -36,8 +36,9 @@ py::str text_of(const std::string& text) {
 
 void raise(ErrorKind kind, const ErrorText& text) {
     const py::object errors = py::module_::import("isoatlas.errors");
-    const py::object error = errors.attr("from_parts")(class_of(kind), text_of(text.file), text_of(text.where), text_of(text.what),
-                                                       text_of(text.expected), text_of(text.next), name_of(text.reason), text_of(text.value));
+    const py::object error =
+        errors.attr("from_parts")(class_of(kind), text_of(text.file), text_of(text.where), text_of(text.what), text_of(text.expected),
+                                  text_of(text.next), name_of(text.reason), text_of(text.value));
     PyErr_SetObject(py::type::handle_of(error).ptr(), error.ptr());
 }
 

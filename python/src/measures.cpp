@@ -1,5 +1,6 @@
 #include "measures.h"
 
+#include <memory>
 #include <string>
 
 #include <isoatlas/measures.h>
@@ -50,18 +51,17 @@ py::dict dict_of(const ObjectMeasures& one, const Calibration& calibration) {
 std::vector<ObjectMeasures> measure(Source& source, double tau, const std::vector<std::int64_t>& objects, bool thickness,
                                     const Context& context) {
     if (source.is_store()) return measure_objects(source.atlas(), tau, {.objects = objects, .thickness = thickness}, context);
-    const MeasureOptions options{.interpolant = source.interpolant(),
-                                 .tunnel_height = source.tunnel_height(),
-                                 .objects = objects,
-                                 .thickness = thickness};
+    const MeasureOptions options{
+        .interpolant = source.interpolant(), .tunnel_height = source.tunnel_height(), .objects = objects, .thickness = thickness};
     return measure_objects(*source.volume(context), tau, options, context);
 }
 
-py::list measures(Source& source, double tau, const std::vector<std::int64_t>& objects, bool thickness, const CallOptions& call) {
+py::list measures(const std::shared_ptr<Source>& source, double tau, const std::vector<std::int64_t>& objects, bool thickness,
+                  const CallOptions& call) {
     const std::vector<ObjectMeasures> found =
-        long_call(call, [&](const Context& context) { return measure(source, tau, objects, thickness, context); });
+        long_call(call, [=](const Context& context) { return measure(*source, tau, objects, thickness, context); });
     py::list list;
-    for (const ObjectMeasures& one : found) list.append(dict_of(one, source.info().calibration));
+    for (const ObjectMeasures& one : found) list.append(dict_of(one, source->info().calibration));
     return list;
 }
 

@@ -44,9 +44,9 @@ Image image_of(const py::array_t<std::uint8_t, py::array::c_style | py::array::f
 RenderOptions options_of(const py::dict& given) {
     RenderOptions options;
     options.width = given["width"].cast<std::int64_t>(), options.height = given["height"].cast<std::int64_t>();
-    options.projection = choice_of("projection", given["projection"].cast<std::string>(),
-                                   std::array{std::pair("orthographic", Projection::orthographic),
-                                              std::pair("perspective", Projection::perspective)});
+    options.projection =
+        choice_of("projection", given["projection"].cast<std::string>(),
+                  std::array{std::pair("orthographic", Projection::orthographic), std::pair("perspective", Projection::perspective)});
     options.background = choice_of("background", given["background"].cast<std::string>(),
                                    std::array{std::pair("light", Background::light), std::pair("dark", Background::dark),
                                               std::pair("transparent", Background::transparent)});
@@ -58,12 +58,9 @@ RenderOptions options_of(const py::dict& given) {
     return options;
 }
 
-/// None: the best one; else degrees around and above.
-View view_of(const py::object& view, const Scene& scene, const Vec3& up, const Context& context) {
-    if (!view) return best_view(scene, up, context);
-    const py::gil_scoped_acquire acquired;
-    const auto [around, above] = view.cast<std::array<double, 2>>();
-    return view_from(around, above, up);
+/// None given: the best one; else degrees around and above.
+View view_of(const std::optional<std::array<double, 2>>& view, const Scene& scene, const Vec3& up, const Context& context) {
+    return view ? view_from((*view)[0], (*view)[1], up) : best_view(scene, up, context);
 }
 
 using Drawn = std::tuple<std::shared_ptr<Surface>, Bytes, double, std::string>;
@@ -80,12 +77,12 @@ py::array render(const std::vector<Drawn>& drawn, const py::object& source, bool
                  const std::vector<std::pair<int, std::int64_t>>& slices, const py::object& view, const Vec3& up, const py::dict& given,
                  const CallOptions& call) {
     const RenderOptions options = options_of(given);
-    const py::object direction = view.is_none() ? py::object() : view;
-    Source* const of = source.is_none() ? nullptr : source.cast<Source*>();
-    return array_of(long_call(call, [&](const Context& context) {
+    const auto direction = view.is_none() ? std::optional<std::array<double, 2>>() : view.cast<std::array<double, 2>>();
+    const auto of = source.is_none() ? std::shared_ptr<Source>() : source.cast<std::shared_ptr<Source>>();
+    return array_of(long_call(call, [=](const Context& context) {
         Scene scene = scene_of(drawn);
         std::shared_ptr<const Volume> volume;
-        if (of != nullptr && (draws_volume || !slices.empty())) volume = of->volume(context);
+        if (of && (draws_volume || !slices.empty())) volume = of->volume(context);
         for (const auto& [axis, index] : slices) scene.slices.push_back(slice_picture(*volume, {.axis = axis, .index = index}, context));
         if (draws_volume && volume) {
             scene.volume.volume = volume.get();
@@ -101,7 +98,7 @@ py::array render(const std::vector<Drawn>& drawn, const py::object& source, bool
 void write_animation_of(const std::string& path, const std::vector<py::array>& frames, double frames_per_second) {
     Animation animation{.frames = {}, .frames_per_second = frames_per_second};
     for (const py::array& frame : frames) animation.frames.push_back(image_of(frame));
-    long_call({}, [&](const Context&) { write_animation(path, animation); });
+    released([&] { write_animation(path, animation); });
 }
 
 }  // namespace
@@ -112,6 +109,7 @@ PYBIND11_MODULE(_render, module) {
     using namespace isoatlas::python;
     py::module_::import("isoatlas._core");
     translate_exceptions();
+    py::module_::import("atexit").attr("register")(py::cpp_function(&wait_for_abandoned_calls));
     module.def("render", &render, py::arg("surfaces"), py::arg("source"), py::arg("draws_volume"), py::arg("slices"), py::arg("view"),
                py::arg("up"), py::arg("options"), py::arg("call"));
     module.def("colour_of", [](std::int64_t number, bool is_cavity) {

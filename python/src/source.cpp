@@ -52,11 +52,11 @@ double Source::stored(double reported) {
     const auto [low, high] = range();
     if (tau >= low && tau <= high) return tau;
     const auto [first, last] = info().calibration.reported_interval(low, high);
-    throw Error(ErrorKind::not_found, {.file = info().path,
-                                       .what = "the isovalue " + text_of(reported) + " is " +
-                                               (reported > last ? "above" : "below") + " every sample",
-                                       .expected = text_of(first) + " .. " + text_of(last),
-                                       .next = "atlas.objects lists isovalues that show something"});
+    throw Error(ErrorKind::not_found,
+                {.file = info().path,
+                 .what = "the isovalue " + text_of(reported) + " is " + (reported > last ? "above" : "below") + " every sample",
+                 .expected = text_of(first) + " .. " + text_of(last),
+                 .next = "atlas.objects lists isovalues that show something"});
 }
 
 Cut Source::cut(double tau, bool label, const Context& context) {

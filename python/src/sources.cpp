@@ -32,17 +32,16 @@ std::shared_ptr<Source> of_store(const std::string& path, const std::optional<st
     if (polarity) options.polarity = polarity_of(*polarity);
     const OpenOptions given = open_options_of(corrections);
     options.corrections = {given.spacing, given.origin, given.unit, given.value_unit};
-    return long_call({}, [&](const Context&) { return std::make_shared<Source>(path, options); });
+    return released([&] { return std::make_shared<Source>(path, options); });
 }
 
-
-std::shared_ptr<Surface> extract(Source& source, double tau, const Indices& objects, const Indices& contours,
+std::shared_ptr<Surface> extract(const std::shared_ptr<Source>& source, double tau, const Indices& objects, const Indices& contours,
                                  const std::tuple<std::string, std::string, std::string>& words, bool normals, const CallOptions& call) {
     SurfaceOptions options;
     const auto& [boundary, style, shell] = words;
     options.boundary = boundary_of(boundary), options.style = style_of(style), options.shell = shell_of(shell);
     options.objects = objects, options.contours = contours, options.normals = normals;
-    return long_call(call, [&](const Context& context) { return std::make_shared<Surface>(source.extract(tau, options, context)); });
+    return long_call(call, [=](const Context& context) { return std::make_shared<Surface>(source->extract(tau, options, context)); });
 }
 
 template <class Entry>
@@ -54,8 +53,8 @@ py::list boxed(const Entry& entry) {
 }
 
 /// The objects at an isovalue, as dicts.
-py::list cut_at(Source& source, double tau, const CallOptions& call) {
-    const Cut cut = long_call(call, [&](const Context& context) { return source.cut(tau, false, context); });
+py::list cut_at(const std::shared_ptr<Source>& source, double tau, const CallOptions& call) {
+    const Cut cut = long_call(call, [=](const Context& context) { return source->cut(tau, false, context); });
     py::list objects;
     for (const CutObject& object : cut.objects) {
         py::dict dict;
@@ -78,63 +77,64 @@ py::list cut_at(Source& source, double tau, const CallOptions& call) {
 }
 
 /// (b0, b1, b2) of all objects at an isovalue.
-std::array<std::int64_t, 3> betti_at(Source& source, double tau, const CallOptions& call) {
-    return long_call(call, [&](const Context& context) {
-        const Cut cut = source.cut(tau, false, context);
+std::array<std::int64_t, 3> betti_at(const std::shared_ptr<Source>& source, double tau, const CallOptions& call) {
+    return long_call(call, [=](const Context& context) {
+        const Cut cut = source->cut(tau, false, context);
         std::array<std::int64_t, 3> betti{static_cast<std::int64_t>(cut.objects.size()), 0, 0};
         for (const CutObject& object : cut.objects) betti[1] += object.b1, betti[2] += object.b2;
         return betti;
     });
 }
 
-py::tuple labels_at(Source& source, double tau, const Indices& objects, const CallOptions& call) {
-    std::int64_t count = 0;
-    std::vector<std::uint32_t> labels = long_call(call, [&](const Context& context) {
-        const Cut cut = source.cut(tau, true, context);
-        count = static_cast<std::int64_t>(cut.objects.size());
-        return object_labels(cut, objects);
+using Labels = std::vector<std::uint32_t>;
+
+py::array array_of(Labels labels, const Source& source) { return moved_array(std::move(labels), shape_of(source.info().extent)); }
+
+py::tuple labels_at(const std::shared_ptr<Source>& source, double tau, const Indices& objects, const CallOptions& call) {
+    auto [labels, count] = long_call(call, [=](const Context& context) {
+        const Cut cut = source->cut(tau, true, context);
+        return std::pair(object_labels(cut, objects), cut.objects.size());
     });
-    return py::make_tuple(moved_array(std::move(labels), shape_of(source.info().extent)), count);
+    return py::make_tuple(array_of(std::move(labels), *source), count);
 }
 
-py::tuple cavity_labels_at(Source& source, double tau, const CallOptions& call) {
+std::pair<Labels, Indices> cavities_at(Source& source, double tau, const Context& context) {
     Indices ids;
-    std::vector<std::uint32_t> labels = long_call(call, [&](const Context& context) {
-        return label_cavities(*source.volume(context), *source.trees(context), tau, ids, context);
-    });
-    return py::make_tuple(moved_array(std::move(labels), shape_of(source.info().extent)), py::cast(ids));
+    Labels labels = label_cavities(*source.volume(context), *source.trees(context), tau, ids, context);
+    return {std::move(labels), std::move(ids)};
+}
+
+py::tuple cavity_labels_at(const std::shared_ptr<Source>& source, double tau, const CallOptions& call) {
+    auto [labels, ids] = long_call(call, [=](const Context& context) { return cavities_at(*source, tau, context); });
+    return py::make_tuple(array_of(std::move(labels), *source), py::cast(ids));
 }
 
 /// is_cavity, voxel, isovalue, label
 using Part = std::tuple<bool, std::int64_t, double, std::uint32_t>;
 
-py::array nested_labels_of(Source& source, const std::vector<Part>& given, const CallOptions& call) {
+py::array nested_labels_of(const std::shared_ptr<Source>& source, const std::vector<Part>& given, const CallOptions& call) {
     std::vector<NestedPart> parts;
     for (const auto& [is_cavity, voxel, tau, label] : given) parts.push_back({is_cavity, voxel, tau, label});
-    std::vector<std::uint32_t> labels = long_call(call, [&](const Context& context) {
-        const NestedSource at{[&](double tau) { return source.cut(tau, true, context).label; },
-                              [&](double tau) {
-                                  Indices ids;
-                                  return label_cavities(*source.volume(context), *source.trees(context), tau, ids, context);
-                              }};
-        return nested_labels(source.info().extent.voxels(), parts, at);
+    Labels labels = long_call(call, [=](const Context& context) {
+        const NestedSource at{[&](double tau) { return source->cut(tau, true, context).label; },
+                              [&](double tau) { return cavities_at(*source, tau, context).first; }};
+        return nested_labels(source->info().extent.voxels(), parts, at);
     });
-    return moved_array(std::move(labels), shape_of(source.info().extent));
+    return array_of(std::move(labels), *source);
 }
 
-py::tuple zones_of(Source& source, const CallOptions& call) {
-    std::int64_t count = 0;
-    std::vector<std::uint32_t> labels = long_call(call, [&](const Context& context) {
-        const std::shared_ptr<const Analysis> zones = source.zones(context);
-        count = zones->event_count();
-        std::vector<std::uint32_t> of_voxel(static_cast<std::size_t>(source.info().extent.voxels()));
-        for (const VoxelId voxel : ids<VoxelId>(source.info().extent.voxels())) {
-            if (voxel.number() % (1 << 20) == 0 && context.cancelled()) throw Error(ErrorKind::cancelled, {.what = "cancelled"});
-            of_voxel[voxel.index()] = static_cast<std::uint32_t>(zones->zone(voxel).number() + 1);
-        }
-        return of_voxel;
-    });
-    return py::make_tuple(moved_array(std::move(labels), shape_of(source.info().extent)), count);
+Labels zone_labels(Source& source, const Context& context) {
+    const std::shared_ptr<const Analysis> zones = source.zones(context);
+    Labels of_voxel(static_cast<std::size_t>(source.info().extent.voxels()));
+    for (const VoxelId voxel : ids<VoxelId>(source.info().extent.voxels())) {
+        if (voxel.number() % (1 << 20) == 0 && context.cancelled()) throw Error(ErrorKind::cancelled, {.what = "cancelled"});
+        of_voxel[voxel.index()] = static_cast<std::uint32_t>(zones->zone(voxel).number() + 1);
+    }
+    return of_voxel;
+}
+
+py::array zones_of(const std::shared_ptr<Source>& source, const CallOptions& call) {
+    return array_of(long_call(call, [=](const Context& context) { return zone_labels(*source, context); }), *source);
 }
 
 /// number, name, colour, reported isovalue, voxels, polarity
@@ -146,7 +146,7 @@ std::vector<std::string> write_segments(const Source& source, const std::string&
     for (const auto& [number, name, colour, isovalue, voxels, polarity] : given)
         segments.push_back({number, name, colour, isovalue, voxels, polarity_of(polarity)});
     const std::span<const std::uint32_t> of_voxel(labels.data(), static_cast<std::size_t>(labels.size()));
-    return long_call({}, [&](const Context&) { return write_segmentation(path, of_voxel, segments, source.info()); });
+    return released([&] { return write_segmentation(path, of_voxel, segments, source.info()); });
 }
 
 /// tau: None for zones.
@@ -155,14 +155,14 @@ void write_label_file(const Source& source, const std::string& path, const py::a
     const LabelOrigin origin{
         .interpolant = source.interpolant(), .tunnel_height = source.tunnel_height(), .tau = tau, .cavities = cavities};
     const std::span<const std::uint32_t> of_voxel(labels.data(), static_cast<std::size_t>(labels.size()));
-    long_call({}, [&](const Context&) { write_labels(path, source.info(), of_voxel, origin); });
+    released([&] { write_labels(path, source.info(), of_voxel, origin); });
 }
 
-py::list verify(Source& source, int levels, bool full, std::uint64_t seed, const CallOptions& call) {
-    const std::vector<CheckResult> checks = long_call(call, [&](const Context& context) {
-        if (source.is_store()) return verify_atlas(source.atlas(), {.levels = levels, .full = full, .seed = seed}, context);
-        const VerifyOptions options{.levels = levels, .interpolant = source.interpolant(), .tunnel_height = source.tunnel_height()};
-        return verify_volume(*source.volume(context), options, context);
+py::list verify(const std::shared_ptr<Source>& source, int levels, bool full, std::uint64_t seed, const CallOptions& call) {
+    const std::vector<CheckResult> checks = long_call(call, [=](const Context& context) {
+        if (source->is_store()) return verify_atlas(source->atlas(), {.levels = levels, .full = full, .seed = seed}, context);
+        const VerifyOptions options{.levels = levels, .interpolant = source->interpolant(), .tunnel_height = source->tunnel_height()};
+        return verify_volume(*source->volume(context), options, context);
     });
     py::list list;
     for (const CheckResult& check : checks) list.append(py::make_tuple(check.name, check.holds, check.detail));
@@ -184,8 +184,8 @@ void add_sources(py::module_& module) {
         .def("stored_of_any", [](const Source& source, double reported) { return stored_isovalue(source.info(), reported); })
         .def("reported", [](const Source& source, double stored) { return source.info().calibration.reported(stored); })
         .def("volume",
-             [](Source& source, const CallOptions& call) {
-                 return long_call(call, [&](const Context& context) { return std::const_pointer_cast<Volume>(source.volume(context)); });
+             [](const std::shared_ptr<Source>& source, const CallOptions& call) {
+                 return long_call(call, [=](const Context& context) { return std::const_pointer_cast<Volume>(source->volume(context)); });
              })
         .def("extract", &extract, py::arg("tau"), py::arg("objects"), py::arg("contours"), py::arg("words"), py::arg("normals"),
              py::arg("call"))

@@ -2,7 +2,6 @@
 #include <cmath>
 #include <cstring>
 #include <exception>
-#include <functional>
 #include <memory>
 #include <string>
 
@@ -49,20 +48,20 @@ py::dict build_from_file(const std::string& path, const std::string& volume, con
                          const py::object& missing, const std::optional<double>& no_data, const CallOptions& call) {
     const OpenOptions open = open_options_of(reading);
     const MissingPolicy policy = missing_of(missing, no_data);
-    const std::unique_ptr<VolumeReader> reader = open_volume(volume, open);
+    const std::shared_ptr<VolumeReader> reader = open_volume(volume, open);
     BuildOptions build = build_options_of(options, reader->info(), policy);
     build.time_step = open.time_step;
-    return dict_of(long_call(call, [&](const Context& context) { return build_atlas(path, *reader, build, context); }));
+    return dict_of(long_call(call, [=](const Context& context) { return build_atlas(path, *reader, build, context); }));
 }
 
 /// Copies an array that Python has read into memory of C++. Called without the interpreter.
 class SlabsOfPython {
 public:
-    SlabsOfPython(py::function read, ValueType type) : read_(std::move(read)), type_(type) {}
+    SlabsOfPython(const py::function& read, ValueType type) : read_(keep_alive(read)), type_(type) {}
 
     void operator()(std::int64_t z_begin, std::int64_t z_end, std::span<std::byte> out) const {
         const py::gil_scoped_acquire acquired;
-        const py::array slab = py::array::ensure(read_(z_begin, z_end), py::array::c_style);
+        const py::array slab = py::array::ensure((*read_)(z_begin, z_end), py::array::c_style);
         if (!slab || !slab.dtype().equal(dtype_of(type_)) || static_cast<std::size_t>(slab.nbytes()) != out.size()) {
             PyErr_Clear();
             throw Error(ErrorKind::input, {.where = "slices " + std::to_string(z_begin) + " to " + std::to_string(z_end),
@@ -73,7 +72,7 @@ public:
     }
 
 private:
-    py::function read_;
+    std::shared_ptr<const py::object> read_;
     ValueType type_;
 };
 
@@ -88,21 +87,21 @@ py::dict build_from_slabs(const std::string& path, const Shape& shape, const py:
     info.type = *type, info.value_unit = value_unit;
     info.extent = {.rank = 3, .size = {shape[2], shape[1], shape[0]}};
     info.geometry = geometry_of(geometry);
-    const SlabsOfPython slabs(read, *type);
-    const std::unique_ptr<VolumeReader> reader = slab_reader(info, std::cref(slabs));
+    const std::shared_ptr<VolumeReader> reader = slab_reader(info, SlabsOfPython(read, *type));
     const BuildOptions build = build_options_of(options, info, missing_of(missing, no_data));
-    return dict_of(long_call(call, [&](const Context& context) { return build_atlas(path, *reader, build, context); }));
+    return dict_of(long_call(call, [=](const Context& context) { return build_atlas(path, *reader, build, context); }));
 }
 
 /// The same from memory that is there, with the interpreter released throughout.
-py::dict build_from_volume(const std::string& path, const Volume& volume, const py::dict& options, const py::object& missing,
-                           const std::optional<double>& no_data, const CallOptions& call) {
-    const std::int64_t slice = volume.info.extent.slice() * static_cast<std::int64_t>(size_of(volume.info.type));
-    const std::unique_ptr<VolumeReader> reader = slab_reader(volume.info, [&](std::int64_t z, std::int64_t end, std::span<std::byte> out) {
-        std::copy(volume.bytes.begin() + z * slice, volume.bytes.begin() + end * slice, out.begin());
+py::dict build_from_volume(const std::string& path, const std::shared_ptr<Volume>& volume, const py::dict& options,
+                           const py::object& missing, const std::optional<double>& no_data, const CallOptions& call) {
+    const std::int64_t slice = volume->info.extent.slice() * static_cast<std::int64_t>(size_of(volume->info.type));
+    const std::shared_ptr<VolumeReader> reader = slab_reader(volume->info, [=](std::int64_t z, std::int64_t end, std::span<std::byte> out) {
+        const Volume& from = *volume;
+        std::copy(from.bytes.begin() + z * slice, from.bytes.begin() + end * slice, out.begin());
     });
-    const BuildOptions build = build_options_of(options, volume.info, missing_of(missing, no_data));
-    return dict_of(long_call(call, [&](const Context& context) { return build_atlas(path, *reader, build, context); }));
+    const BuildOptions build = build_options_of(options, volume->info, missing_of(missing, no_data));
+    return dict_of(long_call(call, [=](const Context& context) { return build_atlas(path, *reader, build, context); }));
 }
 
 }  // namespace

@@ -32,14 +32,13 @@ void fill(Array<Row>& rows, const py::object& given, const char* name) {
     if (given.is_none()) return;
     using Number = typename RowOf<Row>::Number;
     constexpr py::ssize_t length = RowOf<Row>::kLength;
-    const auto array = py::array_t<Number, py::array::c_style | py::array::forcecast>::ensure(given);
+    const auto array = py::array_t < Number, py::array::c_style | py::array::forcecast > ::ensure(given);
     if (!array) throw py::error_already_set();
     const bool fits = length == 0 ? array.ndim() == 1 : array.ndim() == 2 && array.shape(1) == length;
     if (!fits) {
-        throw Error(ErrorKind::usage,
-                    {.what = std::string(name) + " has another shape",
-                     .expected = length == 0 ? "(n,)" : "(n, " + std::to_string(length) + ")",
-                     .next = "reshape it"});
+        throw Error(ErrorKind::usage, {.what = std::string(name) + " has another shape",
+                                       .expected = length == 0 ? "(n,)" : "(n, " + std::to_string(length) + ")",
+                                       .next = "reshape it"});
     }
     rows.resize(static_cast<std::size_t>(array.shape(0)));
     if (!rows.empty()) std::memcpy(rows.data(), array.data(), static_cast<std::size_t>(array.nbytes()));
@@ -101,7 +100,7 @@ py::list checks_of(const std::vector<CheckResult>& checks) {
 }
 
 py::list verify(const Surface& surface) {
-    const std::vector<CheckResult> checks = long_call({}, [&](const Context&) {
+    const std::vector<CheckResult> checks = released([&] {
         Mesh mesh;
         mesh.points = surface.points, mesh.triangles = surface.triangles;
         return verify_mesh(mesh);
@@ -110,7 +109,7 @@ py::list verify(const Surface& surface) {
 }
 
 py::dict inspected(const Surface& surface) {
-    const SurfaceReport report = long_call({}, [&](const Context&) { return inspect(surface.points, surface.triangles); });
+    const SurfaceReport report = released([&] { return inspect(surface.points, surface.triangles); });
     py::dict dict;
     dict["points"] = report.points;
     dict["triangles"] = report.triangles;
@@ -125,14 +124,14 @@ py::dict inspected(const Surface& surface) {
 
 std::vector<std::string> write(const Surface& surface, const std::string& path, const std::string& space) {
     const PointSpace chosen = point_space_of(space);
-    return long_call({}, [&](const Context&) { return write_surface(path, surface, {.space = chosen}); });
+    return released([&] { return write_surface(path, surface, {.space = chosen}); });
 }
 
 using Named = std::tuple<Shared, std::string, std::array<std::uint8_t, 3>>;
 
 std::vector<std::string> write_several(const std::string& path, const std::vector<Named>& given, const std::string& space) {
     const PointSpace chosen = point_space_of(space);
-    return long_call({}, [&](const Context&) {
+    return released([&] {
         std::vector<NamedSurface> surfaces;
         for (const auto& [surface, name, colour] : given) surfaces.push_back({*surface, name, colour});
         return write_surfaces(path, surfaces, {.space = chosen});
@@ -140,7 +139,7 @@ std::vector<std::string> write_several(const std::string& path, const std::vecto
 }
 
 Shared read(const std::string& path) {
-    return long_call({}, [&](const Context&) {
+    return released([&] {
         Mesh mesh = read_mesh(path);
         auto surface = std::make_shared<Surface>();
         surface->points = std::move(mesh.points), surface->triangles = std::move(mesh.triangles);

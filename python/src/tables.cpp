@@ -1,4 +1,5 @@
 // Tables of objects and cavities, as lists of dicts. Isovalues are reported ones; `tau` beside them is the stored one, exact.
+#include <memory>
 #include <string>
 
 #include <isoatlas/cards.h>
@@ -76,35 +77,36 @@ py::dict object_row(const ObjectTable& table, std::size_t line, const VolumeInfo
     return row;
 }
 
-py::dict objects(Source& source, std::int64_t top, bool gate, const py::object& selection, const CallOptions& call) {
+py::dict objects(const std::shared_ptr<Source>& source, std::int64_t top, bool gate, const py::object& selection, const CallOptions& call) {
     const RankOptions options = rank_options(top, gate, selection);
-    const ObjectTable table = long_call(call, [&](const Context& context) { return source.objects(options, context); });
+    const ObjectTable table = long_call(call, [=](const Context& context) { return source->objects(options, context); });
     py::list rows;
-    for (std::size_t line = 0; line < table.entries.size(); ++line) rows.append(object_row(table, line, source.info()));
+    for (std::size_t line = 0; line < table.entries.size(); ++line) rows.append(object_row(table, line, source->info()));
     py::dict result;
     result["rows"] = rows;
     result["branches"] = table.branches;
-    result["noise"] = table.noise * source.info().calibration.slope;
+    result["noise"] = table.noise * source->info().calibration.slope;
     return result;
 }
 
-py::dict cavities(Source& source, std::int64_t top, bool gate, const py::object& selection, const CallOptions& call) {
+py::dict cavities(const std::shared_ptr<Source>& source, std::int64_t top, bool gate, const py::object& selection,
+                  const CallOptions& call) {
     const RankOptions options = rank_options(top, gate, selection);
-    const CavityTable table = long_call(call, [&](const Context& context) { return source.cavities(options, context); });
+    const CavityTable table = long_call(call, [=](const Context& context) { return source->cavities(options, context); });
     py::list rows;
     for (const CavityEntry& entry : table.entries) {
-        py::dict row = row_of(entry, source.info());
+        py::dict row = row_of(entry, source->info());
         row["islands"] = entry.islands;
         row["object"] = entry.object;
         row["reason"] = name_of(entry.reason);
         row["why"] = text_of(entry.reason);
-        row["isovalues"] = isovalues(table.isovalues, entry.branch_minimum, source.info().calibration);
+        row["isovalues"] = isovalues(table.isovalues, entry.branch_minimum, source->info().calibration);
         rows.append(row);
     }
     py::dict result;
     result["rows"] = rows;
     result["branches"] = table.branches;
-    result["noise"] = table.noise * source.info().calibration.slope;
+    result["noise"] = table.noise * source->info().calibration.slope;
     return result;
 }
 

@@ -61,8 +61,8 @@ py::array rows_array(const std::vector<std::array<double, 3>>& rows) {
     return moved_array(std::move(flat), {static_cast<py::ssize_t>(rows.size()), 3});
 }
 
-py::dict tree_arrays(Source& source, const CallOptions& call) {
-    EventColumns columns = long_call(call, [&](const Context& context) { return columns_of(source.info(), *source.trees(context)); });
+py::dict tree_arrays(const std::shared_ptr<Source>& source, const CallOptions& call) {
+    EventColumns columns = long_call(call, [=](const Context& context) { return columns_of(source->info(), *source->trees(context)); });
     py::dict dict;
     dict["value"] = moved_array(std::move(columns.value));
     dict["kind"] = moved_array(std::move(columns.kind));
@@ -82,29 +82,34 @@ py::dict tree_arrays(Source& source, const CallOptions& call) {
 
 std::vector<std::string> kinds() {
     std::vector<std::string> names;
-    for (int kind = 0; kind <= static_cast<int>(Criticality::complex); ++kind)
-        names.emplace_back(name_of(static_cast<Criticality>(kind)));
+    for (int kind = 0; kind <= static_cast<int>(Criticality::complex); ++kind) names.emplace_back(name_of(static_cast<Criticality>(kind)));
     return names;
 }
 
-py::dict contour_arrays(Source& source, const CallOptions& call) {
+struct ContourColumns {
     Counts upper, lower, genus;
     Numbers high, low;
-    long_call(call, [&](const Context& context) {
-        const std::shared_ptr<const Analysis> trees = source.trees(context);
-        const Calibration& calibration = source.info().calibration;
-        for (std::int64_t i = 0; i < trees->contour_arc_count(); ++i) {
-            const ContourArc arc = trees->contour_arc(i);
-            upper.push_back(arc.upper.number()), lower.push_back(arc.lower.number()), genus.push_back(arc.genus);
-            high.push_back(calibration.reported(arc.value_high)), low.push_back(calibration.reported(arc.value_low));
-        }
-    });
+};
+
+ContourColumns contour_columns_of(const Calibration& calibration, const Analysis& trees) {
+    ContourColumns columns;
+    for (std::int64_t i = 0; i < trees.contour_arc_count(); ++i) {
+        const ContourArc arc = trees.contour_arc(i);
+        columns.upper.push_back(arc.upper.number()), columns.lower.push_back(arc.lower.number()), columns.genus.push_back(arc.genus);
+        columns.high.push_back(calibration.reported(arc.value_high)), columns.low.push_back(calibration.reported(arc.value_low));
+    }
+    return columns;
+}
+
+py::dict contour_arrays(const std::shared_ptr<Source>& source, const CallOptions& call) {
+    ContourColumns columns =
+        long_call(call, [=](const Context& context) { return contour_columns_of(source->info().calibration, *source->trees(context)); });
     py::dict dict;
-    dict["upper"] = moved_array(std::move(upper));
-    dict["lower"] = moved_array(std::move(lower));
-    dict["genus"] = moved_array(std::move(genus));
-    dict["tau_high"] = moved_array(std::move(high));
-    dict["tau_low"] = moved_array(std::move(low));
+    dict["upper"] = moved_array(std::move(columns.upper));
+    dict["lower"] = moved_array(std::move(columns.lower));
+    dict["genus"] = moved_array(std::move(columns.genus));
+    dict["tau_high"] = moved_array(std::move(columns.high));
+    dict["tau_low"] = moved_array(std::move(columns.low));
     return dict;
 }
 
@@ -114,11 +119,11 @@ py::array pairs_array(const std::vector<std::array<double, 2>>& pairs) {
     return moved_array(std::move(flat), {static_cast<py::ssize_t>(pairs.size()), 2});
 }
 
-py::array object_pairs(Source& source, const CallOptions& call) {
-    return pairs_array(long_call(call, [&](const Context& context) {
+py::array object_pairs(const std::shared_ptr<Source>& source, const CallOptions& call) {
+    return pairs_array(long_call(call, [=](const Context& context) {
         std::vector<std::array<double, 2>> pairs;
-        const Calibration& calibration = source.info().calibration;
-        for (const ObjectPair& pair : pair_objects(*source.trees(context)))
+        const Calibration& calibration = source->info().calibration;
+        for (const ObjectPair& pair : pair_objects(*source->trees(context)))
             pairs.push_back({calibration.reported(pair.born), calibration.reported(pair.dies)});
         return pairs;
     }));
@@ -138,10 +143,10 @@ std::vector<Handle> found(Source& source, bool exact, double min_persistence, st
     return pair_handles_exactly(*source.volume(context), *trees, options, context);
 }
 
-py::dict handles(Source& source, bool exact, double min_persistence, std::int64_t voxel, const CallOptions& call) {
+py::dict handles(const std::shared_ptr<Source>& source, bool exact, double min_persistence, std::int64_t voxel, const CallOptions& call) {
     const std::vector<Handle> handles =
-        long_call(call, [&](const Context& context) { return found(source, exact, min_persistence, voxel, context); });
-    const VolumeInfo& info = source.info();
+        long_call(call, [=](const Context& context) { return found(*source, exact, min_persistence, voxel, context); });
+    const VolumeInfo& info = source->info();
     std::vector<std::array<double, 2>> pairs;
     std::vector<std::array<double, 3>> opened, closed;
     std::vector<std::uint8_t> open;
@@ -193,25 +198,26 @@ Spectrum spectrum_of(Source& source, std::int64_t samples, const Context& contex
     return isoatlas::spectrum(*source.volume(context), *source.trees(context), options, context);
 }
 
-py::dict spectrum(Source& source, std::int64_t samples, const CallOptions& call) {
-    const Spectrum found = long_call(call, [&](const Context& context) { return spectrum_of(source, samples, context); });
-    return spectrum_arrays(found, source.info().calibration);
+py::dict spectrum(const std::shared_ptr<Source>& source, std::int64_t samples, const CallOptions& call) {
+    const Spectrum found = long_call(call, [=](const Context& context) { return spectrum_of(*source, samples, context); });
+    return spectrum_arrays(found, source->info().calibration);
 }
 
-void write_spectrum_file(Source& source, const std::string& path, std::int64_t samples, const CallOptions& call) {
-    long_call(call, [&](const Context& context) { write_spectrum(path, source.info(), spectrum_of(source, samples, context)); });
+void write_spectrum_file(const std::shared_ptr<Source>& source, const std::string& path, std::int64_t samples, const CallOptions& call) {
+    long_call(call, [=](const Context& context) { write_spectrum(path, source->info(), spectrum_of(*source, samples, context)); });
 }
 
-void write_tree_file(Source& source, const std::string& path, const std::string& detail, bool all, const CallOptions& call) {
-    const TreeOutput output{.detail = choice_of("detail", detail,
-                                                std::array{std::pair("events", TreeDetail::events), std::pair("levels", TreeDetail::levels),
-                                                           std::pair("elements", TreeDetail::elements),
-                                                           std::pair("contours", TreeDetail::contours)}),
-                            .all = all};
-    long_call(call, [&](const Context& context) {
+void write_tree_file(const std::shared_ptr<Source>& source, const std::string& path, const std::string& detail, bool all,
+                     const CallOptions& call) {
+    const TreeOutput output{
+        .detail = choice_of("detail", detail,
+                            std::array{std::pair("events", TreeDetail::events), std::pair("levels", TreeDetail::levels),
+                                       std::pair("elements", TreeDetail::elements), std::pair("contours", TreeDetail::contours)}),
+        .all = all};
+    long_call(call, [=](const Context& context) {
         Volume header;  // the file needs no sample
-        header.info = source.info();
-        write_tree(path, header, *source.trees(context), output);
+        header.info = source->info();
+        write_tree(path, header, *source->trees(context), output);
     });
 }
 

@@ -37,16 +37,16 @@ Shared borrowed(const py::array& array, const py::dict& geometry, const std::str
 }
 
 /// As a volume file with these samples would be read.
-void complete(Volume& volume, const py::object& missing, const std::optional<double>& no_data, const CallOptions& call) {
+void complete(const Shared& volume, const py::object& missing, const std::optional<double>& no_data, const CallOptions& call) {
     const MissingPolicy policy = missing_of(missing, no_data);
-    long_call(call, [&](const Context& context) { replace_missing(volume, policy, context); });
+    long_call(call, [=](const Context& context) { replace_missing(*volume, policy, context); });
 }
 
 Shared read(const std::string& path, const py::dict& options, const py::object& missing, const std::optional<double>& no_data,
             const CallOptions& call) {
     const OpenOptions open = open_options_of(options);
     const MissingPolicy policy = missing_of(missing, no_data);
-    return long_call(call, [&](const Context& context) { return std::make_shared<Volume>(load_volume(path, open, policy, context)); });
+    return long_call(call, [=](const Context& context) { return std::make_shared<Volume>(load_volume(path, open, policy, context)); });
 }
 
 Shared phantom(const std::string& name, const py::dict& options) {
@@ -67,14 +67,14 @@ Shared phantom(const std::string& name, const py::dict& options) {
             chosen.quantise = value.cast<std::int64_t>();
         }
     }
-    return long_call({}, [&](const Context&) { return std::make_shared<Volume>(make_phantom(name, chosen)); });
+    return released([&] { return std::make_shared<Volume>(make_phantom(name, chosen)); });
 }
 
-Shared shaped(const Volume& volume, const std::optional<SampleBox>& box, double sigma, const CallOptions& call) {
-    return long_call(call, [&](const Context& context) {
-        if (box && sigma > 0) return std::make_shared<Volume>(gaussian_filter(volume, *box, sigma, context));
-        if (box) return std::make_shared<Volume>(crop(volume, *box));
-        return std::make_shared<Volume>(gaussian_filter(volume, sigma, context));
+Shared shaped(const Shared& volume, const std::optional<SampleBox>& box, double sigma, const CallOptions& call) {
+    return long_call(call, [=](const Context& context) {
+        if (box && sigma > 0) return std::make_shared<Volume>(gaussian_filter(*volume, *box, sigma, context));
+        if (box) return std::make_shared<Volume>(crop(*volume, *box));
+        return std::make_shared<Volume>(gaussian_filter(*volume, sigma, context));
     });
 }
 
@@ -94,15 +94,11 @@ void add_volumes(py::module_& module) {
         .def("complete", &complete, py::arg("missing"), py::arg("no_data"), py::arg("call"))
         .def(
             "shaped",
-            [](const Volume& volume, const std::optional<std::array<std::array<std::int64_t, 3>, 2>>& box, double sigma,
+            [](const Shared& volume, const std::optional<std::array<std::array<std::int64_t, 3>, 2>>& box, double sigma,
                const CallOptions& call) { return shaped(volume, box_of(box), sigma, call); },
             py::arg("box"), py::arg("sigma"), py::arg("call"))
-        .def("negated", [](const Volume& volume) {
-            return long_call({}, [&](const Context&) { return std::make_shared<Volume>(isoatlas::negated(volume)); });
-        })
-        .def("write", [](const Volume& volume, const std::string& path) {
-            long_call({}, [&](const Context&) { write_volume(path, volume); });
-        });
+        .def("negated", [](const Volume& volume) { return released([&] { return std::make_shared<Volume>(isoatlas::negated(volume)); }); })
+        .def("write", [](const Volume& volume, const std::string& path) { released([&] { write_volume(path, volume); }); });
     module.def("read_volume", &read, py::arg("path"), py::arg("options"), py::arg("missing"), py::arg("no_data"), py::arg("call"));
     module.def("volume_info", [](const std::string& path, const py::dict& options) {
         return dict_of(open_volume(path, open_options_of(options))->info());

@@ -54,14 +54,14 @@ SurfaceStyle style_of(std::string_view word) {
     return choice_of("style", word, std::array{std::pair("compact", SurfaceStyle::compact), std::pair("full", SurfaceStyle::full)});
 }
 ShellChoice shell_of(std::string_view word) {
-    return choice_of("shell", word,
-                     std::array{std::pair("all", ShellChoice::all), std::pair("outer", ShellChoice::outer),
-                                std::pair("inner", ShellChoice::inner)});
+    return choice_of(
+        "shell", word,
+        std::array{std::pair("all", ShellChoice::all), std::pair("outer", ShellChoice::outer), std::pair("inner", ShellChoice::inner)});
 }
 PointSpace point_space_of(std::string_view word) {
-    return choice_of("space", word,
-                     std::array{std::pair("lps", PointSpace::lps), std::pair("ras", PointSpace::ras),
-                                std::pair("volume", PointSpace::volume)});
+    return choice_of(
+        "space", word,
+        std::array{std::pair("lps", PointSpace::lps), std::pair("ras", PointSpace::ras), std::pair("volume", PointSpace::volume)});
 }
 
 py::dict dict_of(const VolumeInfo& info) {
@@ -131,7 +131,8 @@ MissingPolicy missing_of(const py::object& missing, const std::optional<double>&
     if (missing.is_none()) return policy;
     if (py::isinstance<py::str>(missing)) {
         using Action = MissingPolicy::Action;
-        policy.action = choice_of("missing", missing.cast<std::string>(), std::array{std::pair("below", Action::below), std::pair("above", Action::above)});
+        policy.action = choice_of("missing", missing.cast<std::string>(),
+                                  std::array{std::pair("below", Action::below), std::pair("above", Action::above)});
         return policy;
     }
     policy.action = MissingPolicy::Action::replace;

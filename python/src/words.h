@@ -23,8 +23,9 @@ Choice choice_of(std::string_view argument, std::string_view word, const std::ar
         if (word == name) return choice;
         expected += (expected.empty() ? "'" : ", '") + std::string(name) + "'";
     }
-    throw Error(ErrorKind::usage,
-                {.what = std::string(argument) + " cannot be '" + std::string(word) + "'", .expected = expected, .next = "use one of them"});
+    throw Error(
+        ErrorKind::usage,
+        {.what = std::string(argument) + " cannot be '" + std::string(word) + "'", .expected = expected, .next = "use one of them"});
 }
 
 [[nodiscard]] Interpolant interpolant_of(std::string_view word);

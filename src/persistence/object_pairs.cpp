@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <limits>
 
-
 namespace isoatlas {
 
 std::vector<ObjectPair> pair_objects(const Analysis& analysis) {

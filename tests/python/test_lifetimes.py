@@ -5,7 +5,6 @@ import os
 import pathlib
 import pickle
 import resource
-import signal
 import subprocess
 import sys
 import textwrap
@@ -19,7 +18,7 @@ import pytest
 import isoatlas
 from conftest import smooth
 
-ROUNDS = int(os.environ.get("ISOATLAS_ROUNDS", "300"))
+ROUNDS = int(os.environ.get("ISOATLAS_ROUNDS", "120"))
 
 
 def test_arrays_outlive_their_atlas():
@@ -87,7 +86,7 @@ def test_rounds_of_opening_and_extracting_do_not_grow():
     for _ in range(ROUNDS):
         round_trip()
     gc.collect()
-    assert resident() - before < 6e6  # a kilobyte a round would be seen in 10,000
+    assert resident() - before < 4e6 + 200 * ROUNDS
 
 
 def test_eight_threads_at_once():
@@ -169,7 +168,7 @@ def test_control_c_stops_every_long_call(call, tmp_path):
                           env=dict(os.environ, PYTHONPATH=os.pathsep.join(sys.path)))
     assert done.returncode == 0, done.stderr
     assert done.stdout.strip() != "finished", "the call was too short to be interrupted"
-    assert float(done.stdout) < 5  # on a busy machine; what it takes on an idle one is in docs/performance.md
+    assert float(done.stdout) < 2  # a tenth of a second, on a machine that does nothing else
     assert not (tmp_path / "v.atlas").exists()
 
 

@@ -44,8 +44,8 @@ RC_GTEST_PROP(ObjectPairs, AreThoseOfTheRanksOfPersistentHomology, ()) {
     for (const Cut& upper : cuts) {
         for (const Cut& lower : cuts) {
             if (lower.tau > upper.tau) continue;
-            const auto lives = std::ranges::count_if(
-                pairs, [&](const ObjectPair& pair) { return pair.born >= upper.tau && pair.dies < lower.tau; });
+            const auto lives =
+                std::ranges::count_if(pairs, [&](const ObjectPair& pair) { return pair.born >= upper.tau && pair.dies < lower.tau; });
             RC_ASSERT(lives == surviving(upper, lower));
         }
     }
