@@ -3,7 +3,7 @@
 
     report.py --self-test
     report.py FOLDER [PAGE]   FOLDER holds what was measured: engine.json, extract.json, store.json, render.json, pages.json,
-                              methods.json and scale-SECTION.json, those that are there; PAGE: docs/performance.md
+                              methods.json, methods-surfaces.json and scale-SECTION.json, those that are there; PAGE: docs/performance.md
 
 A table replaces the one of the same vectors (AVX2, AVX-512); that of the other kind of processor stays. What misses its goal is in bold.
 """
@@ -177,6 +177,20 @@ def methods_table(document):
     return table(header, rows)
 
 
+def surfaces_table(document):
+    """A row for each method on each volume: what it makes, beside VTK and scikit-image."""
+    rows = []
+    for found in document["results"]:
+        of = f"{found['volume']} at {found['tau']:g}, {thousands(found['active cells'])} active cells"
+        for row in found["rows"]:
+            counts = [row[column] for column in ("triangles", "components", "euler", "hole_edges", "non_manifold_edges")]
+            if row["triangles"] == 0:
+                continue  # points
+            rows.append([of, row["method"], *(thousands(count) for count in counts), f"{row['seconds']:.3f}"])
+            of = ""
+    return table(["volume", "method", "triangles", "components", "Euler number", "edges of holes", "non-manifold edges", "seconds"], rows)
+
+
 ORDER = ["no AVX2", "AVX2", "AVX-512"]
 
 
@@ -208,6 +222,7 @@ TABLES = [
     ("render", "render", lambda document: generic_table(document["pictures"], render_misses)),
     ("pages", "pages", lambda document: generic_table(document["pages"], page_misses)),
     ("methods", "methods", methods_table),
+    ("methods-surfaces", "methods-surfaces", surfaces_table),
 ] + [(f"scale-{section}", f"scale-{section}", scale_table) for section in ("analysis", "extract", "stores", "render", "pages")]
 
 
@@ -226,6 +241,9 @@ def self_test():
     queries = lambda n: [{"k": k, "cells": k + n, "nodes": 0, "blocks": 0} for k in (1, n * n)]
     records = [{"volume": f"smooth-{n}", "n": n**3, "search": "s", "theorem": "n", "cells_of_block": 0, "queries": queries(n)} for n in (2, 4)]
     assert methods_table({"records": records}).endswith("| s | n | 4 | 0.33 | 0.50 |"), methods_table({"records": records})
+    row = {"method": "m", "triangles": 1200, "components": 1, "euler": 2, "hole_edges": 0, "non_manifold_edges": 0, "seconds": 0.5}
+    found = {"volume": "v", "tau": 0.5, "active cells": 600, "rows": [row, row | {"triangles": 0}]}
+    assert surfaces_table({"results": [found]}).endswith("| v at 0.5, 600 active cells | m | 1 200 | 1 | 2 | 0 | 0 | 0.500 |")
 
 
 def main():

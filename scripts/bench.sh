@@ -25,17 +25,22 @@ if [[ -z $programs ]]; then
 fi
 out=build/bench
 page=docs/performance.md
-fields=() methods=() scale=() engine=() pairs=() builds=()
+fields=() methods=() surfaces=() scale=() engine=() pairs=() builds=()
 if [[ -n $quick ]]; then
     out=build/bench/quick
     engine=(smooth-64 noisy-64 white-64) scale=(--sizes 32 64) pairs=(--pairs 1) builds=(--builds 1)
     methods=(smooth-16 smooth-32 smooth-64 white-16 white-32 white-64)
     fields=(--volumes "${engine[@]}")
+    surfaces=(--volumes smooth-16 white-16)
 fi
 mkdir -p "$out/volumes"
 if [[ -n $quick ]]; then cp "$page" "$out/performance.md" && page=$out/performance.md; fi
 common=(--cache "$out/volumes")
 if [[ -d ../shared/data ]]; then common+=(--data ../shared/data); fi
+if [[ ${#surfaces[@]} -eq 0 ]]; then
+    surfaces=(--volumes smooth-64 white-32)
+    if [[ -d ../shared/data ]]; then surfaces+=(fuel neghip headsq); fi
+fi
 
 python() { /usr/bin/python3 -B "$@"; }
 
@@ -54,7 +59,11 @@ measure() { # into the folder $1
             store) compare store/compare_vtk.py bench_store "${builds[@]}" ;;
             render) compare render/compare_vtk.py bench_render ;;
             pages) compare page/first_pictures.py isoatlas ;;
-            methods) "$programs/bench_methods" growth "${methods[@]}" "${common[@]}" --json "$to/methods.json" ;;
+            methods)
+                "$programs/bench_methods" growth "${methods[@]}" "${common[@]}" --json "$to/methods.json"
+                python bench/methods/surfaces.py "$programs/isoatlas" "${surfaces[@]}" "${common[@]}" --json "$to/methods-surfaces.json"
+                python bench/machine.py "$to/methods-surfaces.json"
+                ;;
             scale) python bench/scale.py "$programs" "${scale[@]}" --cache "$out/volumes" --out "$to" ;;
             *) echo "bench: no section '$section'; sections: engine extract store render pages methods scale" >&2 && exit 2 ;;
         esac

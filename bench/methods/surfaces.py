@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Surfaces of the methods of the literature beside those of VTK and scikit-image, of the same samples: what they make, then how long it takes.
 
-    surfaces.py ISOATLAS [--volumes noise-64 ...] [--active 0.05 0.5] [--data FOLDER] [--cache FOLDER] [--json FILE]
+    surfaces.py ISOATLAS [--volumes smooth-64 ...] [--active 0.05 0.5] [--methods surfaces] [--data FOLDER] [--cache FOLDER] [--json FILE]
 
 ISOATLAS: the command. Isovalues lie between samples; surfaces are open where they leave the volume. The time of one run, on one thread for
 the methods of the literature and for scikit-image; of VTK and the product on all. Where the product has a hole or an edge with more than two
@@ -72,8 +72,9 @@ def of_skimage(method, samples, tau, size):
     return measures(points[:, ::-1], triangles, size) | {"seconds": seconds}
 
 
-def ours(isoatlas, path, tau):
-    done = subprocess.run([isoatlas, "compare", path, "--tau", repr(tau), "--json", "--quiet"], check=True, stdout=subprocess.PIPE, text=True)
+def ours(isoatlas, path, tau, methods):
+    command = [isoatlas, "compare", path, "--tau", repr(tau), "--methods", methods, "--json", "--quiet"]
+    done = subprocess.run(command, check=True, stdout=subprocess.PIPE, text=True)
     for surface in json.loads(done.stdout)["surfaces"]:
         row = {"method": surface["title"], **{name: surface[name] for name, _ in COLUMNS[1:]}}
         strict = {"asymptotic-decider": ["hole_edges"], "trilinear": ["hole_edges", "non_manifold_edges"]}
@@ -95,8 +96,8 @@ def field_of(isoatlas, path, cache, name):
     return Field(field, info["volume"]["dims"], samples.dtype)
 
 
-def compare(isoatlas, path, name, field, tau):
-    rows = list(ours(isoatlas, path, tau))
+def compare(isoatlas, path, name, field, tau, methods):
+    rows = list(ours(isoatlas, path, tau, methods))
     image = field.image()
     rows.append({"method": "VTK, Marching Cubes", **of_vtk(vtk.vtkMarchingCubes(), image, tau, field.size)})
     rows.append({"method": "VTK, Flying Edges", **of_vtk(vtk.vtkFlyingEdges3D(), image, tau, field.size)})
@@ -118,6 +119,7 @@ def main():
     parser.add_argument("program", help="the command isoatlas")
     parser.add_argument("--volumes", nargs="+", help=f"default: {' '.join(VOLUMES)}; the real ones where --data is given")
     parser.add_argument("--active", type=float, nargs="+", default=[0.05, 0.5], help="fractions of active cells")
+    parser.add_argument("--methods", default="surfaces", help="of `isoatlas compare`")
     parser.add_argument("--data", help="folder with NAME/NAME.nrrd")
     parser.add_argument("--cache", default="build/bench/volumes", help="folder for samples")
     parser.add_argument("--json")
@@ -129,7 +131,7 @@ def main():
         path = file_of(name, arguments.program, arguments)
         field = field_of(arguments.program, path, cache, name)
         for tau in field.isovalues_of(arguments.active):
-            results.append(compare(arguments.program, path, name, field, float(tau)))
+            results.append(compare(arguments.program, path, name, field, float(tau), arguments.methods))
             print_table(results[-1])
     if arguments.json:
         document = {"programs": {"VTK": vtk.vtkVersion().GetVTKVersion(), "scikit-image": skimage.__version__}, "results": results}
