@@ -75,8 +75,4 @@ public:
 /// The samples are borrowed: the volume must live as long as the result. Throws Error{usage}: a 2D volume, divisions out of range.
 [[nodiscard]] std::unique_ptr<Extractor> make_extractor(SurfaceMethod method, const Volume& volume, const ExtractorOptions& options = {});
 
-/// Edges with one triangle that do not lie in an end of the volume: the rims of holes. inspect() (isoatlas/surface.h) tells the rest. info:
-/// of the volume that the surface was made from. Cost: a sort of the edges.
-[[nodiscard]] std::int64_t count_hole_edges(const Surface& surface, const VolumeInfo& info);
-
 }  // namespace isoatlas

@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "base/union_find.h"
-#include "isoatlas/surface_methods.h"
 #include "methods/surfaces/grid_positions.h"
 
 namespace isoatlas {
@@ -68,7 +67,5 @@ std::optional<std::int64_t> genus_of(const SurfaceDefects& defects, std::int64_t
     if (defects.rims_meet || !defects.non_manifold_edges.empty()) return std::nullopt;
     return (2 * components - euler - defects.rims) / 2;
 }
-
-std::int64_t count_hole_edges(const Surface& surface, const VolumeInfo& info) { return std::ssize(find_defects(surface, info).hole_edges); }
 
 }  // namespace isoatlas

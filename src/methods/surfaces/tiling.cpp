@@ -32,12 +32,36 @@ struct Path {
     }
 };
 
+/// Areas of all triangles with an edge of one polygon and a corner of the other.
+class TriangleAreas {
+public:
+    TriangleAreas(std::span<const Vec3> lower, std::span<const Vec3> upper) : columns_(upper.size()) {
+        on_lower_.reserve(lower.size() * upper.size()), on_upper_.reserve(lower.size() * upper.size());
+        for (std::size_t i = 0; i < lower.size(); ++i) {
+            const Vec3 &p = lower[i], &q = lower[(i + 1) % lower.size()];
+            for (std::size_t j = 0; j < upper.size(); ++j) {
+                const Vec3 &r = upper[j], &s = upper[(j + 1) % upper.size()];
+                on_lower_.push_back(triangle_area(p, q, r));
+                on_upper_.push_back(triangle_area(p, r, s));
+            }
+        }
+    }
+    /// Of the edge from corner i, and corner j of the upper polygon.
+    [[nodiscard]] double on_lower(std::size_t i, std::size_t j) const { return on_lower_[i * columns_ + j]; }
+    /// Of corner i of the lower polygon, and the edge from corner j.
+    [[nodiscard]] double on_upper(std::size_t i, std::size_t j) const { return on_upper_[i * columns_ + j]; }
+
+private:
+    std::size_t columns_;
+    std::vector<double> on_lower_, on_upper_;
+};
+
 class Grid {
 public:
     Grid(std::span<const Vec3> lower, std::span<const Vec3> upper)
-        : lower_(lower), upper_(upper), m_(std::ssize(lower)), n_(std::ssize(upper)) {}
+        : areas_(lower, upper), m_(std::ssize(lower)), n_(std::ssize(upper)), columns_(upper.size() + 1) {}
 
-    [[nodiscard]] Strip best() const {
+    [[nodiscard]] Strip best() {
         const auto first = std::make_shared<const Path>(path(0, nullptr, nullptr));
         struct Between {
             std::int64_t begin, end;  ///< starts
@@ -60,55 +84,54 @@ public:
     }
 
 private:
-    [[nodiscard]] const Vec3& lower(std::int64_t row) const { return lower_[static_cast<std::size_t>(row % m_)]; }
-    [[nodiscard]] const Vec3& upper(std::int64_t column) const { return upper_[static_cast<std::size_t>(column % n_)]; }
+    [[nodiscard]] std::size_t corner_of(std::int64_t row) const { return static_cast<std::size_t>(row % m_); }
 
     /// Costs of a column: rows from `first` on, and whether the step to each came from the row before.
     struct Column {
         std::int64_t first = 0;
         std::vector<double> cost{};
-        std::vector<bool> from_row{};
+        std::vector<char> from_row{};
 
         [[nodiscard]] bool has(std::int64_t row) const { return row >= first && row < first + std::ssize(cost); }
         [[nodiscard]] double at(std::int64_t row) const { return cost[static_cast<std::size_t>(row - first)]; }
     };
 
     /// The cheapest one from a start, between two others.
-    [[nodiscard]] Path path(std::int64_t start, const Path* below, const Path* above) const {
-        std::vector<Column> columns(static_cast<std::size_t>(n_) + 1);
-        for (std::int64_t j = 0; j <= n_; ++j) fill(columns, j, start, below, above);
-        return walk_back(columns, start);
+    [[nodiscard]] Path path(std::int64_t start, const Path* below, const Path* above) {
+        for (std::int64_t j = 0; j <= n_; ++j) fill(j, start, below, above);
+        return walk_back(start);
     }
 
-    void fill(std::vector<Column>& columns, std::int64_t j, std::int64_t start, const Path* below, const Path* above) const {
+    void fill(std::int64_t j, std::int64_t start, const Path* below, const Path* above) {
         const auto at = static_cast<std::size_t>(j);
-        Column& column = columns[at];
+        Column& column = columns_[at];
+        column.cost.clear(), column.from_row.clear();
         const std::int64_t last = std::min(start + m_, above == nullptr ? start + m_ : above->last[at]);
         column.first = std::max(start, below == nullptr ? start : below->first[at]);
         for (std::int64_t row = column.first; row <= last; ++row) {
             double cost = j == 0 && row == start ? 0 : std::numeric_limits<double>::infinity();
             bool from_row = false;
-            if (j > 0 && columns[at - 1].has(row)) cost = columns[at - 1].at(row) + triangle_area(lower(row), upper(j - 1), upper(j));
+            if (j > 0 && columns_[at - 1].has(row)) cost = columns_[at - 1].at(row) + areas_.on_upper(corner_of(row), at - 1);
             if (row > column.first) {
-                const double along = column.cost.back() + triangle_area(lower(row - 1), lower(row), upper(j));
+                const double along = column.cost.back() + areas_.on_lower(corner_of(row - 1), at < columns_.size() - 1 ? at : 0);
                 if (along < cost) cost = along, from_row = true;
             }
             column.cost.push_back(cost);
-            column.from_row.push_back(from_row);
+            column.from_row.push_back(from_row ? 1 : 0);
         }
     }
 
-    [[nodiscard]] Path walk_back(const std::vector<Column>& columns, std::int64_t start) const {
+    [[nodiscard]] Path walk_back(std::int64_t start) const {
         Path path;
-        path.first.resize(columns.size());
-        path.last.resize(columns.size());
+        path.first.resize(columns_.size());
+        path.last.resize(columns_.size());
         path.strip.start = start % m_;
         std::int64_t row = start + m_, j = n_;
-        path.area = columns.back().at(row);
+        path.area = columns_.back().at(row);
         path.last.back() = row;
         while (row > start || j > 0) {
             const auto at = static_cast<std::size_t>(j);
-            const bool from_row = columns[at].from_row[static_cast<std::size_t>(row - columns[at].first)];
+            const bool from_row = columns_[at].from_row[static_cast<std::size_t>(row - columns_[at].first)] != 0;
             path.strip.is_lower.push_back(from_row);
             if (from_row) {
                 --row;
@@ -123,8 +146,9 @@ private:
         return path;
     }
 
-    std::span<const Vec3> lower_, upper_;
+    TriangleAreas areas_;
     std::int64_t m_, n_;
+    std::vector<Column> columns_;  ///< of the path that is being found
 };
 
 /// From the closest pair of corners with corner 0 of the upper polygon.

@@ -6,6 +6,7 @@
 
 #include <optional>
 
+#include "isoatlas/surface_defects.h"
 #include "isoatlas/surface_methods.h"
 #include "oracle/mesh_checks.h"
 #include "oracle/tunnels.h"
@@ -109,7 +110,7 @@ TEST(MarchingCubes33, TubesOfTwoCellsMayHaveEdgesWithFourTriangles) {
     const isoatlas::Volume cells = volume_of({3, 2, 2}, {1, 1, 1, 1, 0, 1, -1, 0, -1, 0, 1, 0});
     const Surface surface = extract_by(SurfaceMethod::marching_cubes_33, cells, 0.5);
     EXPECT_EQ(report_of(surface).non_manifold_edges, 2);
-    EXPECT_EQ(isoatlas::count_hole_edges(surface, cells.info), 0);
+    EXPECT_EQ(std::ssize(isoatlas::find_defects(surface, cells.info).hole_edges), 0);
     EXPECT_EQ(report_of(extract_by(SurfaceMethod::trilinear, cells, 0.5)).non_manifold_edges, 0);
 }
 
@@ -128,7 +129,7 @@ RC_GTEST_PROP(MarchingCubes33Of, AnyVolumeHasTheComponentsOfTheTrilinearInterpol
     if (!tau) return;
     const Surface surface = extract_by(SurfaceMethod::marching_cubes_33, volume, *tau);
     const SurfaceReport found = report_of(surface), expected = report_of(extract_by(SurfaceMethod::trilinear, volume, *tau));
-    RC_ASSERT(isoatlas::count_hole_edges(surface, volume.info) == 0);
+    RC_ASSERT(std::ssize(isoatlas::find_defects(surface, volume.info).hole_edges) == 0);
     RC_ASSERT(found.component_chi.size() == expected.component_chi.size());
     if (found.non_manifold_edges == 0) RC_ASSERT(euler_numbers(found) == euler_numbers(expected));
 }

@@ -4,7 +4,11 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
+#include <set>
+
 #include "isoatlas/cell_search.h"
+#include "isoatlas/surface_defects.h"
+#include "methods/surfaces/contour_stack.h"
 #include "oracle/mesh_checks.h"
 
 namespace oracle {
@@ -63,7 +67,9 @@ TEST(SurfaceMethods, MakeABall) {
 TEST(SurfaceMethods, MarchingCubesHasHoles) {
     std::vector<double> values{0, 1, 0, 1, 0, 1, 0, 0, 1, 0, 1, 1};
     const isoatlas::Volume volume = isoatlas::make_volume<double>({3, {3, 2, 2}}, values);
-    const auto holes = [&](SurfaceMethod method) { return isoatlas::count_hole_edges(extract_by(method, volume, 0.6), volume.info); };
+    const auto holes = [&](SurfaceMethod method) {
+        return std::ssize(isoatlas::find_defects(extract_by(method, volume, 0.6), volume.info).hole_edges);
+    };
     EXPECT_GT(holes(SurfaceMethod::marching_cubes), 0);
     for (const SurfaceMethod method : {SurfaceMethod::asymptotic_decider, SurfaceMethod::five_tetrahedra, SurfaceMethod::six_tetrahedra,
                                        SurfaceMethod::spider_web, SurfaceMethod::trilinear})
@@ -131,7 +137,7 @@ isoatlas::Volume columns(bool branch) {
 TEST(SurfaceMethods, ContoursConnectOneWithOneAndFailAtBranches) {
     const isoatlas::Volume one = columns(false);
     const Surface tube = extract_by(SurfaceMethod::connected_contours, one, -3.4);
-    EXPECT_EQ(isoatlas::count_hole_edges(tube, one.info), 0);
+    EXPECT_EQ(std::ssize(isoatlas::find_defects(tube, one.info).hole_edges), 0);
     EXPECT_EQ(report_of(tube).non_manifold_edges, 0);
     EXPECT_EQ(report_of(tube).misoriented_edges, 0);
     EXPECT_EQ(report_of(tube).component_chi, std::vector<std::int64_t>{0});
@@ -140,7 +146,28 @@ TEST(SurfaceMethods, ContoursConnectOneWithOneAndFailAtBranches) {
     EXPECT_GT(report_of(extract_by(SurfaceMethod::connected_contours, two, -3.4)).non_manifold_edges, 0);
     EXPECT_EQ(report_of(extract_by(SurfaceMethod::trilinear, two, -3.4)).non_manifold_edges, 0);
     const isoatlas::Volume closed = ball(24);
-    EXPECT_GT(isoatlas::count_hole_edges(extract_by(SurfaceMethod::connected_contours, closed, -9), closed.info), 0);
+    EXPECT_GT(std::ssize(isoatlas::find_defects(extract_by(SurfaceMethod::connected_contours, closed, -9), closed.info).hole_edges), 0);
+}
+
+/// A comb: a bar in one slice, teeth in the next one. So many teeth get a strip.
+TEST(SurfaceMethods, ContoursConnectTheLargestBranches) {
+    for (const Index teeth : {isoatlas::kMostBranches - 1, isoatlas::kMostBranches, isoatlas::kMostBranches + 8}) {
+        const Index wide = 4 * teeth + 1;
+        std::vector<double> values;
+        for (Index v = 0; v < wide * 5 * 2; ++v) {
+            const Index x = v % wide, y = v / wide % 5, z = v / wide / 5;
+            const bool is_bar = z == 0 && x > 0 && x < wide - 1 && y > 0 && y < 4;
+            values.push_back(is_bar || (z == 1 && x % 4 == 2 && y == 2) ? 1 : 0);
+        }
+        const Surface comb = extract_by(SurfaceMethod::connected_contours, isoatlas::make_volume<double>({3, {wide, 5, 2}}, values), 0.5);
+        std::set<Index> connected;
+        for (const auto& triangle : comb.triangles) {
+            for (const Index point : triangle) {
+                if (comb.points[point][2] == 1) connected.insert(point);
+            }
+        }
+        EXPECT_EQ(std::ssize(connected), 4 * std::min<Index>(teeth, isoatlas::kMostBranches));
+    }
 }
 
 /// Half the diagonal of a small cube away from the surface at most, with normals outwards.

@@ -5,6 +5,7 @@
 #include <optional>
 #include <set>
 
+#include "isoatlas/surface_defects.h"
 #include "isoatlas/surface_methods.h"
 #include "oracle/mesh_checks.h"
 #include "unit/methods/generic_tau.h"
@@ -38,7 +39,7 @@ RC_GTEST_PROP(SurfaceSpecification, OnlyConnectedContoursAndMarchingCubesHaveHol
             if (info.method == SurfaceMethod::marching_cubes || info.method == SurfaceMethod::connected_contours) continue;
             const Surface surface = extract_by(info.method, volume, tau);
             if (report_of(surface).misoriented_edges != 0) RC_FAIL(std::string(info.name) + ": triangles are not turned alike");
-            if (isoatlas::count_hole_edges(surface, volume.info) != 0) RC_FAIL(std::string(info.name) + ": holes");
+            if (std::ssize(isoatlas::find_defects(surface, volume.info).hole_edges) != 0) RC_FAIL(std::string(info.name) + ": holes");
         }
     }
 }
@@ -60,7 +61,7 @@ RC_GTEST_PROP(SurfaceSpecification, TheProductMakesManifoldsAtSamplesToo, ()) {
         for (const SurfaceMethod method : {SurfaceMethod::spider_web, SurfaceMethod::trilinear}) {
             const Surface surface = extract_by(method, volume, tau);
             RC_ASSERT(report_of(surface).is_manifold());
-            RC_ASSERT(isoatlas::count_hole_edges(surface, volume.info) == 0);
+            RC_ASSERT(std::ssize(isoatlas::find_defects(surface, volume.info).hole_edges) == 0);
         }
     }
 }
@@ -114,7 +115,8 @@ RC_GTEST_PROP(SurfaceSpecification, MarchingCubesHasHolesOnAmbiguousFacesAlone, 
             RC_ASSERT(lies_in_ambiguous_face(grid, tau, p, q));
             ++holes;
         }
-        RC_ASSERT(isoatlas::count_hole_edges(surface, volume.info) <= holes);  // fewer: points very near an end of the volume
+        RC_ASSERT(std::ssize(isoatlas::find_defects(surface, volume.info).hole_edges) <=
+                  holes);  // fewer: points very near an end of the volume
     }
 }
 
