@@ -28,7 +28,7 @@ FoundHandles handles_of(const Atlas& atlas, double noise, const Context& context
     return find_handles(atlas.info(), AtlasAccess::analysis(atlas), min, [&] { return atlas.volume(context); }, context);
 }
 
-void add(PageContents& contents, const Atlas& atlas, const FoundHandles& found) {
+void add_found(PageContents& contents, const Atlas& atlas, const FoundHandles& found) {
     const std::unordered_map<EventId, std::size_t> branch_of =
         branches_of_events(contents, AtlasAccess::analysis(atlas), polarity_of(atlas.info()));
     for (const Handle& handle : found.handles) {  // by descending persistence
@@ -50,10 +50,10 @@ void add_tunnels(PageContents& contents, const StoreSides& sides, const Context&
         [&](const Context& own) {
             if (sides.has_both()) low = handles_of(*sides.low, contents.low->noise, own);
         });
-    add(contents, sides.main, main);
+    add_found(contents, sides.main, main);
     contents.exact_tunnels = main.exact;
     if (!sides.has_both()) return;
-    add(contents, *sides.low, low);
+    add_found(contents, *sides.low, low);
     contents.exact_tunnels = main.exact && low.exact;
 }
 

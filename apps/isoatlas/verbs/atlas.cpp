@@ -43,6 +43,34 @@ std::optional<PageSmoothing> smoothing_of(const Arguments& arguments, const Volu
     return PageSmoothing{arguments.inputs.noise / arguments.inputs.range, sigma, command};
 }
 
+struct PrintedPage {
+    std::string store, page;
+    bool has_both;  ///< polarities
+};
+
+void print_page(const Arguments& arguments, Terminal& terminal, const Atlas& atlas, const PrintedPage& made, const PageReport& report) {
+    if (arguments.json) {
+        VolumeInfo info = atlas.info();
+        info.notes = notes_of(arguments, atlas);
+        Json json = document("atlas", info, atlas.interpolant(), atlas.tunnel_height());
+        json["store"] = made.store;
+        json["output"] = made.page;
+        json["bytes"] = report.bytes;
+        if (made.has_both) json["polarity"] = name_of(PolarityChoice::both);
+        json["shown"] = report.objects;
+        json["shown_low"] = report.low;
+        json["shown_cavities"] = report.cavities;
+        json["hidden"] = report.hidden;
+        print(terminal, json);
+        return;
+    }
+    const std::string others =
+        made.has_both ? count_text(report.low) + " of objects of low values; " : count_text(report.cavities) + " of cavities; ";
+    terminal.out() << made.page << ": " << counted(report.objects, "picture") << ", " << others << counted(report.hidden, "object")
+                   << " hidden; " << bytes_text(static_cast<double>(report.bytes)) << '\n';
+    terminal.next("open " + made.page + " in a browser");
+}
+
 }  // namespace
 
 std::function<void(std::int64_t)> tell_first_pictures(Terminal& terminal, const std::string& page) {
@@ -94,26 +122,7 @@ int run_atlas(const Arguments& arguments, Terminal& terminal) {
         }
         report = write_page(page, atlas, options, session.context());
     }
-    if (arguments.json) {
-        VolumeInfo info = atlas.info();
-        info.notes = notes_of(arguments, atlas);
-        Json json = document("atlas", info, atlas.interpolant(), atlas.tunnel_height());
-        json["store"] = store;
-        json["output"] = page;
-        json["bytes"] = report.bytes;
-        if (low) json["polarity"] = name_of(PolarityChoice::both);
-        json["shown"] = report.objects;
-        json["shown_low"] = report.low;
-        json["shown_cavities"] = report.cavities;
-        json["hidden"] = report.hidden;
-        print(terminal, json);
-        return 0;
-    }
-    const std::string others =
-        low ? count_text(report.low) + " of objects of low values; " : count_text(report.cavities) + " of cavities; ";
-    terminal.out() << page << ": " << counted(report.objects, "picture") << ", " << others << counted(report.hidden, "object")
-                   << " hidden; " << bytes_text(static_cast<double>(report.bytes)) << '\n';
-    terminal.next("open " + page + " in a browser");
+    print_page(arguments, terminal, atlas, {store, page, low.has_value()}, report);
     return 0;
 }
 
