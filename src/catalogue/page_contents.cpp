@@ -236,6 +236,21 @@ Surface surface_of(const Atlas& atlas, bool is_cavity, const PageEntry& entry, c
 
 namespace {
 
+PictureKey key_of(const PageEntry& entry) { return {entry.id, entry.tau, entry.number}; }
+
+/// Of every entry: what the draft has, if there is one.
+std::vector<std::optional<CardPicture>> drawn_before(const PageContents& contents, PageDraft* draft) {
+    std::vector<std::optional<CardPicture>> cards(contents.entries.size());
+    if (draft == nullptr) return cards;
+    for (std::size_t i = 0; i < cards.size(); ++i) {
+        const PageBranch& branch = contents.branches[contents.entries[i].branch];
+        if (branch.is_cavity || branch.polarity == Polarity::low) continue;
+        auto kept = draft->data().cards.extract(key_of(contents.entries[i]));
+        if (!kept.empty()) cards[i] = std::move(kept.mapped());
+    }
+    return cards;
+}
+
 /// Of a 2D volume: slices with the contours.
 void draw_slices(PageContents& contents, const StoreSides& sides, const PageOptions& options, const Context& context) {
     Context silent = context;
@@ -253,13 +268,17 @@ void draw_slices(PageContents& contents, const StoreSides& sides, const PageOpti
 
 void draw_first_pictures(PageContents& contents, const Atlas& atlas, const PageOptions& options, PageDraft::Data& draft,
                          const Context& context) {
+    std::vector<CardPicture> cards(std::min(kFirstCards, contents.entries.size()));
     const auto draw = [&](std::size_t i, const Context& own) {
-        PageEntry& entry = contents.entries[i];
-        CardPicture card = draw_card(surface_of(atlas, false, entry, own), entry.colour, options, own);
-        entry.picture = card.picture;
-        draft.keep({entry.id, entry.tau, entry.number}, std::move(card));
+        const PageEntry& entry = contents.entries[i];
+        cards[i] = draw_card(surface_of(atlas, false, entry, own), entry.colour, options, own);
     };
-    draw_cards(std::min(kFirstCards, contents.entries.size()), draw, [](std::size_t) {}, context);
+    draw_cards(cards.size(), draw, [](std::size_t) {}, context);
+    for (std::size_t i = 0; i < cards.size(); ++i) {
+        PageEntry& entry = contents.entries[i];
+        entry.picture = cards[i].picture;
+        draft.cards.emplace(key_of(entry), std::move(cards[i]));
+    }
 }
 
 std::vector<CoarseSurface> draw_pictures(PageContents& contents, const StoreSides& sides, const PageOptions& options,
@@ -274,14 +293,10 @@ std::vector<CoarseSurface> draw_pictures(PageContents& contents, const StoreSide
         return surface_of(sides.of(branch.polarity), branch.is_cavity, entry, own);
     };
     std::vector<std::optional<CoarseSurface>> coarse(contents.entries.size());
-    const auto drawn_before = [&](const PageEntry& entry) -> std::optional<CardPicture> {
-        const PageBranch& branch = contents.branches[entry.branch];
-        if (options.draft == nullptr || branch.is_cavity || branch.polarity == Polarity::low) return std::nullopt;
-        return options.draft->data().take({entry.id, entry.tau, entry.number});
-    };
+    std::vector<std::optional<CardPicture>> before = drawn_before(contents, options.draft);
     const auto draw = [&](std::size_t i, const Context& own) {
         PageEntry& entry = contents.entries[i];
-        std::optional<CardPicture> card = drawn_before(entry);
+        std::optional<CardPicture>& card = before[i];
         if (!card) card = draw_card(surface(i, own), entry.colour, options, own);
         entry.picture = std::move(card->picture);
         coarse[i] = std::move(card->coarse);

@@ -4,7 +4,6 @@
 #include <cstdint>
 #include <map>
 #include <memory>
-#include <mutex>
 #include <optional>
 #include <tuple>
 
@@ -23,21 +22,7 @@ struct PageDraft::Data {
     std::optional<Overview> high;
     std::shared_ptr<const AtlasTrees> trees;
 
-    /// From any thread.
-    void keep(const PictureKey& key, CardPicture card) {
-        const std::lock_guard lock(mutex_);
-        cards_.insert_or_assign(key, std::move(card));
-    }
-    /// From any thread; once each.
-    [[nodiscard]] std::optional<CardPicture> take(const PictureKey& key) {
-        const std::lock_guard lock(mutex_);
-        auto kept = cards_.extract(key);
-        return kept.empty() ? std::nullopt : std::optional(std::move(kept.mapped()));
-    }
-
-private:
-    std::mutex mutex_;
-    std::map<PictureKey, CardPicture> cards_;
+    std::map<PictureKey, CardPicture> cards;
 };
 
 }  // namespace isoatlas
