@@ -21,7 +21,6 @@ using PictureKey = std::tuple<std::int64_t, double, std::int64_t>;
 struct PageDraft::Data {
     std::optional<Overview> high;
     std::shared_ptr<const AtlasTrees> trees;
-
     std::map<PictureKey, CardPicture> cards;
 };
 
