@@ -1,5 +1,5 @@
-# `make package`: isoatlas (the command line) and libisoatlas-dev (all libraries with headers), as Debian packages and as tarballs that
-# unpack anywhere. What the program links is found by dpkg-shlibdeps; who installs it needs no compiler and no npm.
+# `make package`: isoatlas (the command line), libisoatlas-dev (all libraries with headers) and python3-isoatlas, as Debian packages and as
+# tarballs that unpack anywhere. What the programs link is found by dpkg-shlibdeps; who installs them needs no compiler and no npm.
 set(CPACK_GENERATOR DEB TGZ)
 set(CPACK_PACKAGE_NAME isoatlas)
 set(CPACK_PACKAGE_VERSION ${PROJECT_VERSION})
@@ -23,6 +23,12 @@ set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS "libtbb-dev, zlib1g-dev, libtiff-de
 libqhull-dev, libembree-dev, libwebp-dev, libmeshoptimizer-dev, libzstd-dev")
 set(CPACK_ARCHIVE_RUNTIME_FILE_NAME isoatlas-${PROJECT_VERSION}-${CMAKE_SYSTEM_PROCESSOR})
 set(CPACK_ARCHIVE_DEVELOPMENT_FILE_NAME libisoatlas-dev-${PROJECT_VERSION}-${CMAKE_SYSTEM_PROCESSOR})
+set(CPACK_DEBIAN_PYTHON_PACKAGE_NAME python3-isoatlas)
+set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
+set(CPACK_DEBIAN_PYTHON_PACKAGE_SHLIBDEPS ON)
+set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS "python3, python3-numpy")
+set(CPACK_DEBIAN_PYTHON_PACKAGE_SUGGESTS "python3-pandas, python3-networkx, python3-meshio, python3-tqdm")
+set(CPACK_ARCHIVE_PYTHON_FILE_NAME python3-isoatlas-${PROJECT_VERSION}-${CMAKE_SYSTEM_PROCESSOR})
 include(CPack)
 cpack_add_component_group(runtime DESCRIPTION "Which objects are in a scalar volume, and at which isovalues?\n\
 Lists the topologically distinct objects of CT, MRI, microscopy and simulation volumes with the isovalues that show them, writes a page of \
@@ -33,3 +39,8 @@ cpack_add_component(cli GROUP runtime)
 foreach(component IN ITEMS ${ISOATLAS_ALL_LIBRARIES} umbrella package)  # cpack takes `all` for all components, the command line too
   cpack_add_component(${component} GROUP development)
 endforeach()
+if(ISOATLAS_PYTHON)
+  cpack_add_component_group(python DESCRIPTION "Python package of isoatlas\n\
+The objects of arrays and files, closed surfaces and labels as arrays of numpy.")
+  cpack_add_component(python_package GROUP python)
+endif()

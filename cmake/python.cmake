@@ -4,7 +4,7 @@ find_package(Python3 QUIET COMPONENTS Interpreter Development.Module NumPy)
 set(PYTHON_EXECUTABLE ${Python3_EXECUTABLE})  # as pybind11 2.10 calls it
 find_package(pybind11 2.10 QUIET CONFIG)
 set(has_python OFF)
-if(has_all AND Python3_FOUND AND pybind11_FOUND)
+if(has_all AND Python3_FOUND AND pybind11_FOUND AND NOT ISOATLAS_SANITIZE)  # the interpreter is built without sanitizers
   set(has_python ON)
 endif()
 cmake_dependent_option(ISOATLAS_PYTHON "Build the Python package" ON has_python OFF)

@@ -52,6 +52,7 @@ def test_the_package_and_its_examples_are_typed():
     if importlib.util.find_spec("mypy") is None:
         pytest.skip("python3-mypy is not installed")
     package = pathlib.Path(isoatlas.__file__).parent
-    command = [sys.executable, "-m", "mypy", "--strict", "--ignore-missing-imports", "--cache-dir", os.devnull]
+    command = [sys.executable, "-m", "mypy", "--strict", "--ignore-missing-imports", "--cache-dir",
+               os.environ.get("ISOATLAS_MYPY_CACHE", os.devnull)]
     done = subprocess.run([*command, *EXAMPLES], capture_output=True, text=True, env=dict(ENVIRONMENT, MYPYPATH=str(package.parent)))
     assert done.returncode == 0, done.stdout
