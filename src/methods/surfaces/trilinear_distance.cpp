@@ -9,11 +9,13 @@
 #include "isoatlas/environment.h"
 #include "isoatlas/error.h"
 #include "methods/surfaces/level_set.h"
-#include "methods/surfaces/triangle_index.h"
+#include "methods/surfaces/point_distances.h"
 #include "methods/surfaces/voxel_positions.h"
 
 namespace isoatlas {
 namespace {
+
+constexpr std::int64_t kBetweenLooks = 1 << 12;  // triangles, until somebody may have cancelled
 
 void require(const TrilinearDistanceOptions& options, double tau) {
     require_isovalue(tau);
@@ -42,11 +44,16 @@ SurfaceDistance summary(std::span<const Sums> parts, double area_of_a_unit) {
     return {all.first / all.weight, std::sqrt(all.square / all.weight), all.max, all.samples, all.weight * area_of_a_unit};
 }
 
+/// Every so many-th of `count` parts is measured.
+std::int64_t step_between(std::int64_t count, const TrilinearDistanceOptions& options) {
+    return (count + options.max_parts - 1) / options.max_parts;
+}
+
 /// measure(part) of every step-th part of `count`.
 template <class Measure>
 SurfaceDistance measured(std::int64_t count, bool has_area, const TrilinearDistanceOptions& options, const Context& context,
                          const Measure& measure) {
-    const std::int64_t step = (count + options.max_parts - 1) / options.max_parts;
+    const std::int64_t step = step_between(count, options);
     if (count == 0) return {};
     std::vector<Sums> parts(static_cast<std::size_t>((count + step - 1) / step));
     constexpr std::int64_t kBlock = 256;
@@ -146,9 +153,6 @@ SurfaceDistance distance_from_trilinear(const Extraction& result, const Volume& 
     const EnvironmentScope scope(context);
     require(options, tau);
     const VoxelPositions positions(volume.info.geometry);
-    std::vector<Corners3> triangles;
-    for (std::int64_t part = 0; part < parts_of(result); ++part) triangles.push_back(part_of(result, positions, part));
-    const TriangleIndex index(std::move(triangles));
     return visit_samples(volume, [&]<class T>(std::span<const T> samples) {
         const LevelSet<T> level_set(volume.info.extent, samples, tau);
         const Index3 cells = level_set.cells();
@@ -161,10 +165,26 @@ SurfaceDistance distance_from_trilinear(const Extraction& result, const Volume& 
                 }
             }
         }
-        return measured(std::ssize(active), true, options, context, [&](std::int64_t part) {
-            return of_cell(level_set.box(active[static_cast<std::size_t>(part)]),
-                           [&](const Vec3& point) { return index.distance(point, options.max_distance); });
+        const std::int64_t step = step_between(std::ssize(active), options);
+        const auto each_cell = [&](const auto& visit) {
+            for (std::size_t i = 0; i < active.size(); i += static_cast<std::size_t>(step)) visit(level_set.box(active[i]));
+        };
+        std::vector<Vec3> points;  // the cells are sampled twice, in the same order: for their points, and with the distances of these
+        each_cell([&](const LevelBox& box) {
+            (void)of_cell(box, [&](const Vec3& point) {
+                points.push_back(point);
+                return 0.0;
+            });
         });
+        PointDistances distances(points, options.max_distance);
+        for (std::int64_t part = 0; part < parts_of(result); ++part) {
+            if (part % kBetweenLooks == 0) stop_if_cancelled(context);
+            distances.add(part_of(result, positions, part));
+        }
+        std::vector<Sums> parts;
+        std::size_t next = 0;
+        each_cell([&](const LevelBox& box) { parts.push_back(of_cell(box, [&](const Vec3&) { return distances[next++]; })); });
+        return active.empty() ? SurfaceDistance{} : summary(parts, static_cast<double>(step));
     });
 }
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <limits>
 
-#include "methods/surfaces/triangle_index.h"
+#include "methods/surfaces/triangle_distance.h"
 
 namespace isoatlas {
 namespace {

@@ -5,7 +5,7 @@
 #include <rapidcheck/gtest.h>
 
 #include "methods/surfaces/level_set.h"
-#include "methods/surfaces/triangle_index.h"
+#include "methods/surfaces/point_distances.h"
 #include "methods/surfaces/voxel_positions.h"
 #include "oracle/mesh_checks.h"
 
@@ -182,8 +182,23 @@ RC_GTEST_PROP(TrilinearDistanceOf, AnyTrianglesIsThatOfTheNearest, ()) {
     }
     RC_ASSERT(nearest <= sampled + 1e-9);
     RC_ASSERT(nearest >= sampled - 8.0 / kTimes);  // the longest edge has a length of at most sqrt(50)
-    RC_ASSERT(std::abs(isoatlas::TriangleIndex(triangles).distance(point, 20) - nearest) < 1e-12);
-    RC_ASSERT(isoatlas::TriangleIndex(triangles).distance(point, 0.5) == std::min(nearest, 0.5));
+}
+
+// Few points and many, so that slices are looked at whole and by rows.
+RC_GTEST_PROP(TrilinearDistanceOf, PointsIsThatOfTheNearestTriangle, ()) {
+    const auto arbitrary_point = [] { return Vec3{9 * arbitrary_part(), 7 * arbitrary_part(), 3 * arbitrary_part()}; };
+    std::vector<isoatlas::Corners3> triangles;
+    for (int i = *rc::gen::inRange(0, 6); i > 0; --i) triangles.push_back({arbitrary_point(), arbitrary_point(), arbitrary_point()});
+    std::vector<Vec3> points;
+    for (int i = *rc::gen::element(1, 5, 400); i > 0; --i) points.push_back(arbitrary_point());
+    const double max = *rc::gen::element(0.5, 2.0, 20.0);
+    isoatlas::PointDistances distances(points, max);
+    for (const auto& t : triangles) distances.add(t);
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        double nearest = max;
+        for (const auto& t : triangles) nearest = std::min(nearest, isoatlas::distance_to_triangle(points[i], t));
+        RC_ASSERT(distances[i] == nearest);
+    }
 }
 
 RC_GTEST_PROP(VoxelPositions, AreTheInverseOfToPhysical, ()) {
