@@ -36,7 +36,7 @@ std::shared_ptr<const Value> Source::once(std::shared_ptr<const Value>& value, c
 
 std::array<double, 2> Source::range() {
     if (atlas_) return atlas_->range();
-    const std::scoped_lock lock(making_);
+    const std::scoped_lock lock(ranging_);
     if (!range_) {
         range_ = visit_samples(*volume_, [](auto samples) {
             const auto [low, high] = std::minmax_element(samples.begin(), samples.end());

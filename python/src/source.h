@@ -59,6 +59,7 @@ private:
     const std::shared_ptr<const Volume> volume_;
     const std::optional<Atlas> atlas_;
     std::timed_mutex making_;
+    std::mutex ranging_;  ///< a pass over the samples does not wait for an analysis
     std::shared_ptr<const Analysis> trees_;
     std::optional<std::array<double, 2>> range_;
 };
