@@ -32,8 +32,8 @@ private:
         std::size_t first;
     };
     double max_;
-    std::vector<Point> points_;    ///< by slice, row, cell
-    std::vector<Slice> slices_;    ///< that have points
+    std::vector<Point> points_;  ///< by slice, row, cell
+    std::vector<Slice> slices_;  ///< that have points
     std::vector<double> distance_;
 };
 
