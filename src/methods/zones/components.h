@@ -43,9 +43,9 @@ private:
 
 /// Finds the components of one list after another.
 template <class T>
-class Components {
+class ComponentsOfList {
 public:
-    explicit Components(const CellGrid<T>& grid)
+    explicit ComponentsOfList(const CellGrid<T>& grid)
         : grid_(grid), seen_(static_cast<std::size_t>(std::min(grid.count(), grid.size[0] * (grid.size[1] + 1) + 2))) {}
 
     /// Calls visit(cells) for the components of a list, in the order of their first cells. cells: of one node, in order. In the literature:

@@ -10,7 +10,9 @@
 #include <vector>
 
 #include "base/cancel.h"
+#include "base/memory_limit.h"
 #include "base/parallel.h"
+#include "base/streamed_visits.h"
 #include "census/waiting_voxels.h"
 #include "levelset/threshold.h"
 #include "methods/zones/filing_runs.h"
@@ -105,10 +107,9 @@ void file_slab(const FiledVolume& of, const Slab& slab, const Add& add) {
     constexpr std::size_t kTogether = 4096;
     const Extent& extent = of.volume.info.extent;
     const std::span<const T> samples = of.volume.samples<T>();
-    const std::size_t touched = is_scratch(of.node.items().data()) ? BudgetPoll::kTouch : 0;
     const CellGrid<T> grid(extent, samples);
     std::vector<Filing<T>> filings;
-    BudgetPoll memory;
+    StreamedVisits cells({in_order(3).bytes + (is_scratch(of.node.items().data()) ? at_random().bytes : 0)});
     std::int64_t number = slab.z_begin * grid.size[0] * grid.size[1];
     const auto flush = [&](std::size_t enough) {
         if (filings.size() < enough) return;
@@ -116,7 +117,7 @@ void file_slab(const FiledVolume& of, const Slab& slab, const Add& add) {
         filings.clear();
     };
     const auto by_path = [&](std::span<const std::int64_t> corners) {
-        memory.step(in_order(3).bytes + touched);
+        cells.next();
         const ZoneCell<T> cell = zone_cell(samples, corners, CellId(number++));
         if (!(cell.low < cell.high)) return;
         const auto zone = [&](int k) { return of.analysis.zone(VoxelId(corners[static_cast<std::size_t>(k)])); };
@@ -124,7 +125,7 @@ void file_slab(const FiledVolume& of, const Slab& slab, const Add& add) {
         flush(kTogether);
     };
     const auto by_zone = [&](std::span<const std::int64_t> corners, std::span<const Tops* const> tops) {
-        memory.step(in_order(3).bytes + touched);
+        cells.next();
         file_by_zone(of.events, zone_cell(samples, corners, CellId(number++)), tops, filings);
         flush(kTogether);
     };

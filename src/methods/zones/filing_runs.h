@@ -39,7 +39,8 @@ public:
     FilingLimit(std::int64_t max, const std::string& path) : max_(max), path_(path) {}
     /// Thread safe. Throws Error{resource}.
     void add(std::int64_t filings) {
-        if ((count_ += filings) > max_) refuse();
+        const std::int64_t count = count_ += filings;
+        if (count > max_) refuse();
     }
     [[nodiscard]] std::int64_t count() const { return count_; }
 

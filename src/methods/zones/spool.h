@@ -23,9 +23,8 @@ public:
     template <class Visit>
     void for_each(const Visit& visit) const {
         std::vector<T> buffer;
-        for (const Array<T>& chunk : chunks_) {
-            check_memory();
-            for (const T& item : part_in_memory<T>(chunk, buffer)) visit(item);
+        for (const std::size_t i : streamed(chunks_.size(), {kChunk * sizeof(T)})) {
+            for (const T& item : part_in_memory<T>(chunks_[i], buffer)) visit(item);
         }
         for (const T& item : last_) visit(item);
     }

@@ -23,7 +23,7 @@ template <class T>
 Spool<ZoneList> write_lists(BlockWriter& file, const CellGrid<T>& grid, FilingRuns<T>& filings, ZoneLayout layout, const Context& context) {
     Spool<ZoneList> lists;
     ListWriter<T> writer(file, context);
-    Components<T> components(grid);
+    ComponentsOfList<T> components(grid);
     const auto write = [&](std::span<const Filing<T>> cells) { lists.add(writer.write(cells)); };
     filings.for_lists([&](std::span<Filing<T>> cells) {
         stop_if_cancelled(context);
