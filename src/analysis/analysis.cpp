@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "analysis/analysis_data.h"
+#include "analysis/event_alone.h"
 #include "field/order.h"
 #include "isoatlas/id.h"
 
@@ -96,33 +97,15 @@ std::int64_t Analysis::event_count() const {
 }
 
 Event Analysis::event(EventId id) const {
-    require(id >= EventId(0) && id < EventId(event_count()), "event");
-    return data_->visit([&](const auto& held) {
-        const auto& arrays = held.arrays;
-        const auto& tree = arrays.tree;
-        const auto& measures = arrays.measures;
+    Event event = event_alone(*data_, id);
+    data_->visit([&](const auto& held) {
         const auto& index = held.events();
-        const bool is_3d = data_->extent.rank == 3, root = tree.is_root(id), has_zones = !arrays.voxels.empty();
-        Event event{};
-        event.id = id;
-        event.value = arrays.value[tree.top[id]];
-        event.position = element_position(ElementCode{arrays.code[tree.top[id]]}, data_->extent);
-        event.kind = measures.kind[id];
-        event.parent = root ? EventId::none() : EventId(tree.parent[id]);
         const auto first = static_cast<std::size_t>(index.first_child[id.index()]);
         event.children = std::span(index.children).subspan(first, index.first_child[id.index() + 1] - first);
         event.objects_in = static_cast<std::int64_t>(event.children.size());
-        event.lows_out = static_cast<std::int64_t>(measures.lows_out[id]);
-        event.delta_chi = measures.delta_chi[id];
-        event.zone = {root ? -std::numeric_limits<double>::infinity() : arrays.value[tree.top[tree.parent[id]]], event.value,
-                      has_zones ? static_cast<std::int64_t>(arrays.voxels[id]) : 0};
-        event.chi = measures.chi[id];
-        event.contours = static_cast<std::int64_t>(measures.contours[id]);
-        event.b2 = is_3d ? event.contours - 1 : 0;
-        event.b1 = 1 + event.b2 - event.chi;
-        event.object_voxels = has_zones ? static_cast<std::int64_t>(index.object_voxels[id.index()]) : 0;
-        return event;
+        if (!index.object_voxels.empty()) event.object_voxels = static_cast<std::int64_t>(index.object_voxels[id.index()]);
     });
+    return event;
 }
 
 void Analysis::visit_object_contours(const std::function<void(EventId, std::span<const GenusCount>)>& visit) const {

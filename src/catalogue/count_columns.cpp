@@ -1,12 +1,10 @@
 #include "catalogue/count_columns.h"
 
 #include <algorithm>
-#include <limits>
 #include <optional>
-#include <tuple>
 #include <utility>
 
-#include "analysis/analysis_data.h"
+#include "analysis/event_alone.h"
 #include "isoatlas/simplify.h"
 
 namespace isoatlas {
@@ -88,18 +86,12 @@ std::vector<CountColumn> count_columns(std::span<const SpectrumInterval> interva
 
 std::vector<SpectrumInterval> branch_intervals(const Analysis& analysis, EventId branch_top, double merges) {
     const std::vector<EventId> events = events_of(analysis, branch_top, merges);
-    const bool is_3d = analysis.extent().rank == 3;
     std::vector<SpectrumInterval> intervals;
     intervals.reserve(events.size());
-    analysis.data().visit([&](const auto& held) {
-        const auto& [arrays, tree, measures] = std::tie(held.arrays, held.arrays.tree, held.arrays.measures);
-        for (const EventId id : events) {
-            const double low = tree.is_root(id) ? -std::numeric_limits<double>::infinity() : arrays.value[tree.top[tree.parent[id]]];
-            const auto contours = static_cast<std::int64_t>(measures.contours[id]);
-            const std::int64_t b2 = is_3d ? contours - 1 : 0, b1 = 1 + b2 - static_cast<std::int64_t>(measures.chi[id]);
-            intervals.push_back({low, arrays.value[tree.top[id]], {1, contours, b1, b2}, {}});
-        }
-    });
+    for (const EventId id : events) {
+        const Event event = event_alone(analysis.data(), id);
+        intervals.push_back({event.zone.tau_low, event.value, {1, event.contours, event.b1, event.b2}, {}});
+    }
     return intervals;
 }
 

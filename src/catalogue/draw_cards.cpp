@@ -7,6 +7,7 @@
 #include "base/cancel.h"
 #include "base/parallel.h"
 #include "base/phase.h"
+#include "catalogue/shared_context.h"
 #include "isoatlas/environment.h"
 #include "preview/coarse_surface.h"
 
@@ -18,24 +19,19 @@ namespace {
 class Cards {
 public:
     Cards(const char* phase, std::size_t count, const Context& context)
-        : phase_(phase), count_(count), context_(context), here_(context), own_(context) {
+        : phase_(phase), count_(count), context_(context), shared_(context) {
         constexpr int kAtOnce = 2;
         const int threads = thread_count(context.threads);
         at_once_ = current_environment().memory != nullptr ? 1 : std::min(threads, kAtOnce);
-        own_.progress = nullptr;
-        own_.threads = std::max(1, threads / at_once_);
-        own_.cancelled = [this] {
-            if (context_.cancelled && here_.is_caller() && context_.cancelled()) is_cancelled_ = true;
-            return is_cancelled_.load();
-        };
+        shared_.set_threads(std::max(1, threads / at_once_));
     }
 
     /// Calls work(i, context) for i in [begin, end).
     void each(std::size_t begin, std::size_t end, const std::function<void(std::size_t, const Context&)>& work) {
         for_each_block(at_once_, static_cast<std::int64_t>(end - begin), [&](std::int64_t block) {
-            stop_if_cancelled(own_);
-            if (here_.is_caller()) report(context_, only_phase(phase_), static_cast<double>(done_) / static_cast<double>(count_));
-            work(begin + static_cast<std::size_t>(block), own_);
+            stop_if_cancelled(shared_.context());
+            if (shared_.is_caller()) report(context_, only_phase(phase_), static_cast<double>(done_) / static_cast<double>(count_));
+            work(begin + static_cast<std::size_t>(block), shared_.context());
             ++done_;
         });
     }
@@ -44,11 +40,9 @@ private:
     const char* phase_;
     std::size_t count_;
     const Context& context_;
-    const CallerLooks here_;
     int at_once_ = 1;
-    std::atomic<bool> is_cancelled_ = false;
     std::atomic<std::size_t> done_ = 0;
-    Context own_;
+    SharedContext shared_;
 };
 
 }  // namespace

@@ -112,7 +112,7 @@ auto with_tables(const VolumeView& volume, const Analysis& analysis, const RankO
 
 ObjectTable rank_objects(const VolumeView& volume, const Analysis& analysis, const RankOptions& options, const Context& context) {
     return with_tables(volume, analysis, options, context,
-                       [](const auto&, const NoiseModel&, const auto&, ObjectTable table, ZoneSums) { return table; });
+                       [](const auto&, const NoiseModel&, const auto&, ObjectTable table, const ZoneSums&) { return table; });
 }
 
 ObjectTable rank_objects(const Volume& volume, const Analysis& analysis, const RankOptions& options, const Context& context) {

@@ -3,8 +3,8 @@
 
 #include <algorithm>
 #include <limits>
-#include <tuple>
 
+#include "analysis/event_alone.h"
 #include "analysis/object_tree.h"
 #include "base/paced_fill.h"
 #include "features/hierarchy.h"
@@ -111,17 +111,13 @@ BranchHierarchy hierarchy_of(const VolumeInfo& info, const Analysis& analysis, c
 }
 
 std::vector<EventId> events_of(const Analysis& analysis, EventId top, double merges) {
-    if (top.exists() && top >= EventId(analysis.event_count()))
-        throw Error(ErrorKind::usage, {.what = "no such event: the id is out of range"});
     std::vector<EventId> events;
-    if (!top.exists()) return events;
-    analysis.data().visit([&](const auto& held) {
-        const auto& [arrays, tree] = std::tie(held.arrays, held.arrays.tree);
-        for (EventId id = top; arrays.value[tree.top[id]] > merges; id = EventId(tree.parent[id])) {
-            events.push_back(id);
-            if (tree.is_root(id)) break;
-        }
-    });
+    for (EventId id = top; id.exists();) {
+        const Event event = event_alone(analysis.data(), id);
+        if (!(event.value > merges)) break;
+        events.push_back(id);
+        id = event.parent;
+    }
     return events;
 }
 
