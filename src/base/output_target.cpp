@@ -11,7 +11,7 @@
 namespace isoatlas {
 namespace {
 
-using TargetKind = FileStatus::Kind;
+using Kind = FileStatus::Kind;
 constexpr int kMaxLinks = 40;  // as many as the system follows
 constexpr const char* kOtherName = "choose another name";
 
@@ -31,15 +31,15 @@ std::string octal(unsigned mode) {
 Obstacle obstacle_at(const OutputTarget& target, bool behind_link) {
     const FileStatus& status = target.status;
     const std::string place = behind_link ? "is a link to " + target.path + ", which " : "";
-    if (status.kind == TargetKind::missing && status.error != -ENOENT) return refused_by_system(status.error);
-    if (status.kind == TargetKind::missing && behind_link) return {place + "is not there", "remove the link, or name the file itself"};
-    if (status.kind == TargetKind::folder)
+    if (status.kind == Kind::missing && status.error != -ENOENT) return refused_by_system(status.error);
+    if (status.kind == Kind::missing && behind_link) return {place + "is not there", "remove the link, or name the file itself"};
+    if (status.kind == Kind::folder)
         return {place + "cannot be written: is a directory", next_step_after(-EISDIR), Reason::output_is_folder};
-    if (status.kind == TargetKind::other)
+    if (status.kind == Kind::other)
         return {place + "is not a regular file but a device, a pipe or a socket", kOtherName, Reason::output_refused};
-    if (status.kind == TargetKind::regular && behind_link && !status.own)
+    if (status.kind == Kind::regular && behind_link && !status.own)
         return {place + "belongs to another user", kOtherName, Reason::output_refused};
-    if (status.kind == TargetKind::regular && !status.writable)
+    if (status.kind == Kind::regular && !status.writable)
         return {place + "is there and may not be written to (permissions " + octal(status.mode) + ")",
                 "choose another name, or allow writing to it", Reason::output_read_only};
     return {};
@@ -47,8 +47,8 @@ Obstacle obstacle_at(const OutputTarget& target, bool behind_link) {
 
 Obstacle obstacle_of_folder(const std::string& path) {
     const FileStatus folder = file_system().status(folder_of(path));
-    if (folder.kind == TargetKind::missing) return refused_by_system(folder.error);
-    if (folder.kind != TargetKind::folder) return refused_by_system(-ENOTDIR);
+    if (folder.kind == Kind::missing) return refused_by_system(folder.error);
+    if (folder.kind != Kind::folder) return refused_by_system(-ENOTDIR);
     if (!folder.writable) return {"lies in a folder that may not be written to", next_step_after(-EACCES), Reason::not_permitted};
     return {};
 }
@@ -91,7 +91,7 @@ OutputTarget find_target(const std::string& path, Obstacle& obstacle) {
     if (target.is_stream) return target;
     for (int links = 0;; ++links) {
         target.status = file_system().status_of_name(target.path);
-        if (target.status.kind != TargetKind::link) {
+        if (target.status.kind != Kind::link) {
             obstacle = obstacle_at(target, links > 0);
             break;
         }

@@ -124,16 +124,19 @@ int take_lock(int descriptor, bool must_be_told) {
 }
 
 FileStatus status_from(const struct stat& status, const std::string& path) {
-    using Kind = FileStatus::Kind;
+    using EntryKind = FileStatus::Kind;
     const mode_t type = status.st_mode & S_IFMT;
     FileStatus found;
-    found.kind = type == S_IFREG ? Kind::regular : type == S_IFDIR ? Kind::folder : type == S_IFLNK ? Kind::link : Kind::other;
+    found.kind = type == S_IFREG   ? EntryKind::regular
+                 : type == S_IFDIR ? EntryKind::folder
+                 : type == S_IFLNK ? EntryKind::link
+                                   : EntryKind::other;
     found.mode = status.st_mode & 07777U;
     found.own = status.st_uid == ::geteuid();
     found.trusted = found.own || status.st_uid == 0;
     found.names = status.st_nlink;
-    const bool refused = found.kind == Kind::regular && (found.own ? (found.mode & S_IWUSR) == 0 : (found.mode & 0222U) == 0);
-    found.writable = !refused && (found.kind == Kind::link || ::faccessat(AT_FDCWD, path.c_str(), W_OK, AT_EACCESS) == 0);
+    const bool refused = found.kind == EntryKind::regular && (found.own ? (found.mode & S_IWUSR) == 0 : (found.mode & 0222U) == 0);
+    found.writable = !refused && (found.kind == EntryKind::link || ::faccessat(AT_FDCWD, path.c_str(), W_OK, AT_EACCESS) == 0);
     return found;
 }
 
