@@ -33,6 +33,7 @@ MOST_DIFFERENCE = 0.01  # of our finest picture: a few steps of an 8-bit channel
 EVERY = 8               # pixels between two rays of the integral
 FINE = 8                # steps of the integral to a voxel
 STEPS = (0.25, 0.5, 0.75, 1, 1.25, 1.5, 1.75, 2, 2.25, 2.5, 2.75, 3)  # ours, in voxels; the first for noise
+FINER = 0.05            # between two of them
 
 
 def under_a_display():
@@ -182,7 +183,7 @@ def difference(a, b):
 
 def longest_step(draw, most):
     """The longest step at which draw(step), the error, is at most `most` there and at all shorter ones from a voxel on, and the error; the
-    longest one below where that is too long; the first if none is."""
+    longest one below where that is too long; the first if none is. To FINER."""
     best, i = None, STEPS.index(1)
     while i < len(STEPS) and (error := draw(STEPS[i])) <= most:
         best, i = (STEPS[i], error), i + 1
@@ -190,6 +191,8 @@ def longest_step(draw, most):
         i -= 1
         error = draw(STEPS[i])
         best = (STEPS[i], error) if error <= most or i == 0 else None
+    while best[1] <= most and (step := round(best[0] + FINER, 2)) < STEPS[-1] and step not in STEPS and (error := draw(step)) <= most:
+        best = (step, error)
     return best
 
 

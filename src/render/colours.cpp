@@ -7,6 +7,22 @@ Colour palette(std::int64_t i) {
     return {c[0] / 255.0, c[1] / 255.0, c[2] / 255.0};
 }
 
+SrgbEncoder::SrgbEncoder() {
+    least_.front() = 0, least_.back() = 2;
+    for (std::size_t byte = 1; byte < 256; ++byte) {
+        double below = 0, above = 1;  // has a smaller byte, has it
+        for (double middle = 0.5; middle > below && middle < above; middle = (below + above) / 2)
+            (srgb_byte(middle) < byte ? below : above) = middle;
+        least_[byte] = above;
+    }
+    for (std::size_t i = 0; i <= kSteps; ++i) first_[i] = srgb_byte(static_cast<double>(i) / kSteps);
+}
+
+const SrgbEncoder& SrgbEncoder::instance() {
+    static const SrgbEncoder encoder;
+    return encoder;
+}
+
 Colour colour_of_object(std::int64_t number) { return palette(number - 1); }
 Colour colour_of_cavity(std::int64_t number) { return palette(number + 2); }  // mostly not that of the object around it
 

@@ -38,34 +38,35 @@ void find_row(std::span<const T> samples, const Extent& extent, std::int64_t row
     }
 }
 
-constexpr int kFurthest = 255;
+constexpr std::uint8_t kLargest = 127;
 
-/// One sweep of a distance transform: the distance of a block is at most one more than those of its preceding 26-neighbours.
-/// step: 1 from the first block to the last, -1 back.
-void sweep(std::vector<std::uint8_t>& distance, const Index3& count, std::int64_t step) {
+/// Sides of cubes of blocks for which is_inside is 1: one more than the smallest side among the seven neighbours in the octant; 0 where it
+/// is 0.
+std::vector<std::uint8_t> cubes_of(const std::vector<std::uint8_t>& is_inside, const Index3& count, std::size_t octant) {
     const auto [nx, ny, nz] = count;
-    std::vector<std::uint8_t> before(nx + 2, kFurthest);  // nearest in the four rows before, between two borders
-    const auto row_at = [&](std::int64_t y, std::int64_t z) { return distance.data() + nx * (y + ny * z); };
+    const std::array<bool, 3> down{(octant & 1) != 0, (octant & 2) != 0, (octant & 4) != 0};
+    std::vector<std::uint8_t> side(is_inside.size()), least(nx + 2, kLargest);  // least of the three rows before, between two borders
     for (std::int64_t k = 0; k < nz; ++k) {
         for (std::int64_t j = 0; j < ny; ++j) {
-            const std::int64_t y = step > 0 ? j : ny - 1 - j, z = step > 0 ? k : nz - 1 - k;
-            std::fill(before.begin(), before.end(), std::uint8_t{kFurthest});
+            const std::int64_t y = down[1] ? j : ny - 1 - j, z = down[2] ? k : nz - 1 - k;
+            const std::int64_t next_y = y + (down[1] ? -1 : 1), next_z = z + (down[2] ? -1 : 1);
+            std::fill(least.begin(), least.end(), kLargest);
             const auto take = [&](std::int64_t v, std::int64_t w) {
                 if (v < 0 || v >= ny || w < 0 || w >= nz) return;
-                const std::uint8_t* row = row_at(v, w);
-                for (std::int64_t x = 0; x < nx; ++x) before[x + 1] = std::min(before[x + 1], row[x]);
+                const std::uint8_t* row = side.data() + nx * (v + ny * w);
+                for (std::int64_t x = 0; x < nx; ++x) least[x + 1] = std::min(least[x + 1], row[x]);
             };
-            take(y - step, z), take(y - 1, z - step), take(y, z - step), take(y + 1, z - step);
-            std::uint8_t* row = row_at(y, z);
-            int last = kFurthest;
+            take(next_y, z), take(y, next_z), take(next_y, next_z);
+            std::uint8_t before = kLargest;
             for (std::int64_t i = 0; i < nx; ++i) {
-                const std::int64_t x = step > 0 ? i : nx - 1 - i;
-                const int nearest = std::min<int>({last, before[x], before[x + 1], before[x + 2]});
-                last = std::min<int>(row[x], std::min(kFurthest, nearest + 1));
-                row[x] = static_cast<std::uint8_t>(last);
+                const std::int64_t x = down[0] ? i : nx - 1 - i, block = x + nx * (y + ny * z);
+                const std::uint8_t smallest = std::min({before, least[x + 1], least[down[0] ? x : x + 2]});
+                before = static_cast<std::uint8_t>(is_inside[block] * std::min<int>(kLargest, smallest + 1));
+                side[block] = before;
             }
         }
     }
+    return side;
 }
 
 }  // namespace
@@ -87,14 +88,17 @@ BlockRanges block_ranges(const Volume& volume, int threads) {
     return blocks;
 }
 
-EmptySpaceGrid::EmptySpaceGrid(const BlockRanges& blocks, const Transfer& transfer, int threads)
-    : count_(blocks.count), distance_(blocks.ranges.size()) {
-    for_each_index(threads, distance_.size(), [&](std::size_t i) {
+EmptySpaceGrid::EmptySpaceGrid(const BlockRanges& blocks, const Transfer& transfer, int threads) : count_(blocks.count) {
+    std::vector<std::uint8_t> visible(blocks.ranges.size()), empty(blocks.ranges.size());
+    for_each_index(threads, blocks.ranges.size(), [&](std::size_t i) {
         const auto [low, high] = blocks.ranges[i];
-        distance_[i] = transfer.visible(low, high) ? 0 : kFurthest;
+        visible[i] = transfer.visible(low, high) ? 1 : 0, empty[i] = 1 - visible[i];
     });
-    sweep(distance_, count_, 1);
-    sweep(distance_, count_, -1);
+    for_each_block(threads, static_cast<std::int64_t>(side_.size()), [&](std::int64_t octant) {
+        const std::vector<std::uint8_t> of_visible = cubes_of(visible, count_, octant), of_empty = cubes_of(empty, count_, octant);
+        side_[octant].resize(visible.size());
+        for (std::size_t i = 0; i < visible.size(); ++i) side_[octant][i] = static_cast<std::int8_t>(of_visible[i] - of_empty[i]);
+    });
 }
 
 }  // namespace isoatlas

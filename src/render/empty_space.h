@@ -45,43 +45,49 @@ public:
     }
 
 private:
-    /// Exit points of a ray from blocks, or from cubes of empty blocks (Zuiderveld, Koning, Viergever: Acceleration of ray casting
-    /// using 3D distance transforms, 1992).
+    /// Exit points of a ray from cubes of blocks, all empty or all visible, that begin at a block and lie in the ray's octant (after
+    /// Zuiderveld, Koning, Viergever: Acceleration of ray casting using 3D distance transforms, 1992; theirs lie around the block).
     struct Leaps {
-        Leaps(const EmptySpaceGrid& blocks, const Vec3& o, const Vec3& w) : all(blocks) {
+        Leaps(const EmptySpaceGrid& blocks, const Vec3& o, const Vec3& w) : count(blocks.count_) {
             constexpr double kBlock = 1.0 / static_cast<double>(BlockRanges::kSide);  // a power of two: nothing is rounded
+            std::size_t octant = 0;
             for (int a = 0; a < 3; ++a) {
                 origin[a] = o[a] * kBlock, way[a] = w[a] * kBlock;
-                forwards[a] = way[a] >= 0 ? 1 : 0;
+                last[a] = static_cast<double>(count[a]) - 0.5;
+                exit[a] = way[a] >= 0 ? 1 : 0;
                 inverse[a] = way[a] == 0 ? 1e300 : 1 / way[a];
+                octant |= (way[a] >= 0 ? 0U : 1U) << a;
             }
+            side = blocks.side_[octant].data();
         }
         struct Leap {
             bool visible;
             double leave;  ///< end of this state along the ray
         };
         [[nodiscard]] Leap from(double t) const {
-            std::int64_t at[3], block = 0;
+            double leave[3];
+            std::int64_t block = 0;
             for (int a = 2; a >= 0; --a) {
-                at[a] = std::clamp(static_cast<std::int64_t>(origin[a] + t * way[a]), std::int64_t{0}, all.count_[a] - 1);
-                block = block * all.count_[a] + at[a];
+                // A place of -1e-9 is cut to 0; one beyond the last block is in it.
+                const auto at = static_cast<std::int32_t>(std::min(origin[a] + t * way[a], last[a]));
+                leave[a] = (static_cast<double>(at) + exit[a] - origin[a]) * inverse[a];
+                block = block * count[a] + at;
             }
-            const std::int64_t distance = all.distance_[block], empty = std::max<std::int64_t>(0, distance - 1);
-            double leave = INFINITY;
-            for (int a = 0; a < 3; ++a) {
-                const std::int64_t edge = forwards[a] != 0 ? at[a] + 1 + empty : at[a] - empty;
-                leave = std::min(leave, (static_cast<double>(edge) - origin[a]) * inverse[a]);
-            }
-            return {distance == 0, leave};
+            const int cube = side[block];
+            const auto more = static_cast<double>(std::abs(cube) - 1);
+            for (int a = 0; a < 3; ++a) leave[a] += more * std::abs(inverse[a]);
+            return {cube > 0, std::min({leave[0], leave[1], leave[2]})};
         }
-        const EmptySpaceGrid& all;
+        Index3 count;
+        const std::int8_t* side;
         Vec3 origin, way;  ///< in blocks
-        double inverse[3];
-        int forwards[3];
+        Vec3 last, exit, inverse;
     };
 
     Index3 count_;
-    std::vector<std::uint8_t> distance_;  ///< Chebyshev distance in blocks to the nearest visible one; 0: visible
+    /// Of every octant (bit a: down along axis a) and block: side in blocks of the largest cube of visible ones that begins with it, minus
+    /// that of empty ones. Nothing ends at the border of the volume.
+    std::array<std::vector<std::int8_t>, 8> side_;
 };
 
 }  // namespace isoatlas

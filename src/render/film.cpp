@@ -38,7 +38,7 @@ void smooth_pixel(const Film& from, std::int64_t x, std::int64_t y, double pixel
     to.open_sky = static_cast<float>(sky / weight), to.open_key = static_cast<float>(key / weight);
 }
 
-void develop_pixel(const FilmPixel& pixel, const Vec3& behind, bool transparent, std::uint8_t* out) {
+void develop_pixel(const FilmPixel& pixel, const Vec3& behind, bool transparent, const SrgbEncoder& encoder, std::uint8_t* out) {
     Vec3 light = doubles(pixel.glow);
     light = along(light, pixel.open_sky, doubles(pixel.ambient));
     light = along(light, pixel.open_key, doubles(pixel.key));
@@ -50,7 +50,7 @@ void develop_pixel(const FilmPixel& pixel, const Vec3& behind, bool transparent,
         light = along(light, 1 - opacity, behind);
         out[3] = 255;
     }
-    for (int c = 0; c < 3; ++c) out[c] = srgb_byte(light[c]);
+    for (int c = 0; c < 3; ++c) out[c] = encoder.byte(light[c]);
 }
 
 }  // namespace
@@ -78,6 +78,7 @@ FilmPixel FilmSum::mean() const {
 }
 
 void smooth_light(Film& film, double pixel, int threads) {
+    if (std::ranges::none_of(film.pixels, [](const FilmPixel& p) { return p.surface > 0; })) return;
     const Film from = film;
     for_each_block(threads, film.height, [&](std::int64_t y) {
         for (std::int64_t x = 0; x < film.width; ++x) smooth_pixel(from, x, y, pixel, film.pixels[x + film.width * y]);
@@ -86,10 +87,11 @@ void smooth_light(Film& film, double pixel, int threads) {
 
 Image developed(const Film& film, Background background, int threads) {
     Image image(film.width, film.height);
+    const SrgbEncoder& encoder = SrgbEncoder::instance();
     for_each_block(threads, film.height, [&](std::int64_t y) {
         const Vec3 behind = background_light(background, (static_cast<double>(y) + 0.5) / static_cast<double>(film.height));
         for (std::int64_t x = 0; x < film.width; ++x)
-            develop_pixel(film.pixels[x + film.width * y], behind, background == Background::transparent, image.at(x, y));
+            develop_pixel(film.pixels[x + film.width * y], behind, background == Background::transparent, encoder, image.at(x, y));
     });
     return image;
 }

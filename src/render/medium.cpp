@@ -1,6 +1,7 @@
 #include "render/medium.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <span>
 
@@ -55,9 +56,10 @@ double swallowed(double x) {
 /// Adds segments of a ray, front to back: t and place (see Transfer) of the begin of the first one and of the end of each. shade(light,
 /// weight, t of its middle) turns the colour of one into its light. False: nothing behind them is seen.
 template <class ShadeSegment>
-bool absorb(std::span<const double> t, std::span<const float> place, const Transfer& transfer, const ShadeSegment& shade,
+bool absorb(std::span<const double> t, const std::array<float, kLanes + 1>& place, const Transfer& transfer, const ShadeSegment& shade,
             Gathered& gathered) {
-    for (std::size_t i = 0; i + 1 < t.size(); ++i) {
+    for (unsigned left = transfer.visible_between(place) & ((1U << (t.size() - 1)) - 1); left != 0; left &= left - 1) {
+        const auto i = static_cast<std::size_t>(std::countr_zero(left));
         const OpticalProperties matter = transfer.mean(static_cast<double>(place[i]), static_cast<double>(place[i + 1]));
         if (!(matter.extinction > 0)) continue;
         const double weight = (1 - gathered.opacity) * swallowed(matter.extinction * (t[i + 1] - t[i]));
@@ -142,34 +144,36 @@ void Medium::go_through(const Ray& ray, double begin, double end, double shift, 
         values.fall(voxel, fall);
         this->shade(fall, *lights, voxel, to_eye, half, light);
     };
-    walk(values, passage, shift,
-         [&](std::span<const double> t, std::span<const float> place) { return absorb(t, place, transfer_, shade_segment, gathered); });
+    walk(values, passage, shift, [&](std::span<const double> t, const std::array<float, kLanes + 1>& place) {
+        return absorb(t, place, transfer_, shade_segment, gathered);
+    });
 }
 
 template <class T, class Take>
 void Medium::walk(const Trilinear<T>& values, const Passage& passage, double shift, const Take& take) const {
     const auto& [origin, way, begin, end] = passage;
     const RaySegments segments{origin, way, step_, std::floor(begin / step_ - shift) + shift, begin, end};
-    // Segments are evaluated kLanes at a time: t[0] and place[0] are those of the end of `segment`, the last one that is done.
-    std::int64_t segment = -1;
+    // Segments are evaluated kLanes at a time, also those that reach into empty blocks: they add nothing. Until `done` all are taken; its
+    // place is known unless a leap ends there.
+    std::int64_t segment = -1;  // the one that ends at `done`
+    double done = begin;
     std::array<double, kLanes + 1> t;
-    std::array<float, kLanes + 1> place;
-    t[0] = begin;
+    std::array<float, kLanes + 1> place{};
     bool has_place = false;
     blocks_.walk(origin, way, begin, end, 1e-7 * step_, [&](double from, double to) {
+        if (to <= done) return true;
         if (const std::int64_t next = segments.number_at(from); next > segment + 1) {
             segment = next - 1;
-            t[0] = segments.end_of(segment), has_place = false;
+            done = segments.end_of(segment), has_place = false;
         }
-        while (t[0] < to) {
-            const std::size_t known = has_place ? 1 : 0;
+        while (done < to) {
+            const std::size_t known = has_place ? 1 : 0, count = kLanes - 1 + known;
+            t[0] = done;
             values.places(segments, segment + static_cast<std::int64_t>(known), std::span<double, kLanes>(t.data() + known, kLanes),
                           std::span<float, kLanes>(place.data() + known, kLanes));
-            std::size_t count = 1;
-            while (count + 1 < kLanes + known && t[count] < to) ++count;
-            if (!take(std::span<const double>(t).first(count + 1), std::span<const float>(place))) return false;
+            if (!take(std::span<const double>(t).first(count + 1), place)) return false;
             segment += static_cast<std::int64_t>(count);
-            t[0] = t[count], place[0] = place[count], has_place = true;
+            done = t[count], place[0] = place[count], has_place = true;
         }
         return true;
     });
@@ -179,7 +183,7 @@ void Medium::visit_matter(const Ray& ray, double begin, double end, double shift
                           const std::function<bool(const MatterSegment&)>& visit) const {
     const Passage passage = passage_of(ray, begin, end);
     if (!(passage.begin < passage.end)) return;
-    const auto take = [&](std::span<const double> t, std::span<const float> place) {
+    const auto take = [&](std::span<const double> t, const std::array<float, kLanes + 1>& place) {
         for (std::size_t i = 0; i + 1 < t.size(); ++i) {
             const OpticalProperties matter = transfer_.mean(static_cast<double>(place[i]), static_cast<double>(place[i + 1]));
             if (matter.extinction > 0 && t[i] < t[i + 1] && !visit({t[i], t[i + 1], matter})) return false;

@@ -69,7 +69,8 @@ Seen Tracer::trace(const Ray& ray, std::uint32_t seed, std::uint32_t sample, Wor
     work.layers.clear();
     add_sheets(ray, max, gap, work);
     slices_.add(ray, max, work.layers);
-    std::stable_sort(work.layers.begin(), work.layers.end(), [](const Layer& a, const Layer& b) { return a.t < b.t; });
+    if (work.layers.size() > 1)
+        std::stable_sort(work.layers.begin(), work.layers.end(), [](const Layer& a, const Layer& b) { return a.t < b.t; });
     const double shift = fraction_of(hash(seed ^ 0x51ed270bU) + sample * 2654435769U);
     gather(ray, max, gap, {shift, hash(seed, sample)}, work.layers, seen);
     if (!hit) return seen;

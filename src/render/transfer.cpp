@@ -74,9 +74,9 @@ Transfer::Transfer(const SceneVolume& volume, double length_unit, std::array<dou
     : low_(range[0]), places_per_value_(range[1] > range[0] ? kPlaces / (range[1] - range[0]) : 1), sums_(kPlaces + 1) {
     for (const OpacityTent& bump : volume.tents) add(curve_of(bump), length_unit);
     for (const TransferCurve& curve : volume.curves) add(curve, length_unit);
-    next_visible_.assign(kPlaces + 1, static_cast<double>(kPlaces));
+    next_visible_.assign(kPlaces + 1, static_cast<std::uint16_t>(kPlaces));
     for (std::int64_t i = kPlaces - 1; i >= 0; --i)
-        next_visible_[i] = sums_[i + 1][0] != sums_[i][0] ? static_cast<double>(i) : next_visible_[i + 1];
+        next_visible_[i] = sums_[i + 1][0] != sums_[i][0] ? static_cast<std::uint16_t>(i) : next_visible_[i + 1];
 }
 
 void Transfer::add(const TransferCurve& curve, double length_unit) {
@@ -87,20 +87,6 @@ void Transfer::add(const TransferCurve& curve, double length_unit) {
         const Sums sum = integral.to(low_ + static_cast<double>(i) / places_per_value_);
         for (std::size_t c = 0; c < 4; ++c) sums_[i][c] += sum[c] - first[c];
     }
-}
-
-OpticalProperties Transfer::mean_between(double low, double high) const {
-    // Closer than one table entry, differences of the sums would be lost in rounding: then averages over neighbouring entries.
-    if (high - low < 1e-3) {
-        low = std::max(0.0, low - kWidening);
-        high = std::min(high + kWidening, static_cast<double>(kPlaces));
-    }
-    const auto i = std::min(static_cast<std::int64_t>(low), kPlaces - 1), j = std::min(static_cast<std::int64_t>(high), kPlaces - 1);
-    const double f = low - static_cast<double>(i), g = high - static_cast<double>(j), part = places_per_value_ / (high - low);
-    const Sums &from = sums_[i], &from_next = sums_[i + 1], &to = sums_[j], &to_next = sums_[j + 1];
-    Sums mean;
-    for (int c = 0; c < 4; ++c) mean[c] = part * ((to[c] + g * (to_next[c] - to[c])) - (from[c] + f * (from_next[c] - from[c])));
-    return {mean[0], {mean[1], mean[2], mean[3]}};
 }
 
 std::vector<std::array<double, 2>> visible_values(const SceneVolume& volume) {

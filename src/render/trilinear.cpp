@@ -53,6 +53,22 @@ struct SmallPairs {
     }
 };
 
+/// The same of floats: both are one word. A zero in single precision, two or more along x.
+struct FloatPairs {
+    float zero;
+    [[gnu::always_inline]] void read(const std::array<const float*, kLanes>& from, std::int64_t offset, Numbers& low, Numbers& high) const {
+        const auto word = [&](std::size_t k) {
+            double both;
+            std::memcpy(&both, from[k] + offset, sizeof both);
+            return both;
+        };
+        const auto first = __builtin_bit_cast(Numbers, Doubles{word(0), word(1), word(4), word(5)}),
+                   second = __builtin_bit_cast(Numbers, Doubles{word(2), word(3), word(6), word(7)});
+        low = __builtin_shufflevector(first, second, 0, 2, 8, 10, 4, 6, 12, 14) - zero;
+        high = __builtin_shufflevector(first, second, 1, 3, 9, 11, 5, 7, 13, 15) - zero;
+    }
+};
+
 /// Between the corners of cells: first: corner 0. part: place in the cell, 0 to 1.
 template <class T, class Reader>
 [[gnu::always_inline]] inline void interpolate(const std::array<const T*, kLanes>& first, const std::array<std::int64_t, 3>& step,
@@ -87,7 +103,60 @@ template <class T>
     if constexpr (sizeof(T) <= 2) {
         if (samples.step[0] != 0) return interpolate(corner, samples.step, SmallPairs<T>{static_cast<float>(zero)}, part, found);
     }
+    if constexpr (std::is_same_v<T, float>) {
+        const auto single = static_cast<float>(zero);
+        if (samples.step[0] != 0 && static_cast<double>(single) == zero)
+            return interpolate(corner, samples.step, FloatPairs{single}, part, found);
+    }
     interpolate(corner, samples.step, Pairs<T>{samples.step[0], zero}, part, found);
+}
+
+/// Negative central differences of the interpolant in a cell that has neighbours on all sides, from 12 rows of 4 samples along x: those at
+/// y and y + 1, z and z + 1, and the ones beside them. part: place in the cell.
+template <class T>
+struct RowsAround {
+    const T* first;  ///< corner 0 of the cell
+    std::int64_t y, z;
+    std::array<float, 3> part;
+
+    [[gnu::always_inline]] void row(std::int64_t v, std::int64_t w, Halves& found) const {
+        T __attribute__((vector_size(4 * sizeof(T)))) samples;
+        std::memcpy(&samples, first - 1 + v * y + w * z, sizeof samples);
+        found = __builtin_convertvector(samples, Halves);
+    }
+    [[gnu::always_inline]] void fall(Vec3& difference) const {
+        std::array<std::array<Halves, 4>, 4> rows;  // by z, then y, both from -1 on
+        for (int i = 0; i < 16; ++i) {
+            const int v = i % 4, w = i / 4;
+            const bool edge = (v == 0 || v == 3) && (w == 0 || w == 3);  // not needed
+            if (!edge) row(v - 1, w - 1, rows[w][v]);
+        }
+        const auto mix = [](const auto& a, const auto& b, float t) __attribute__((always_inline)) { return a + t * (b - a); };
+        const auto over_z = [&](int v)
+                                __attribute__((always_inline)) { return mix(rows[0][v] - rows[2][v], rows[1][v] - rows[3][v], part[2]); };
+        const auto over_y = [&](int w)
+                                __attribute__((always_inline)) { return mix(rows[w][0] - rows[w][2], rows[w][1] - rows[w][3], part[1]); };
+        const Halves line = mix(mix(rows[1][1], rows[1][2], part[1]), mix(rows[2][1], rows[2][2], part[1]), part[2]);
+        const Halves along_y = mix(over_y(1), over_y(2), part[2]), along_z = mix(over_z(1), over_z(2), part[1]);
+        difference[0] = 0.5 * static_cast<double>(mix(line[0] - line[2], line[1] - line[3], part[0]));
+        difference[1] = 0.5 * static_cast<double>(mix(along_y[1], along_y[2], part[0]));
+        difference[2] = 0.5 * static_cast<double>(mix(along_z[1], along_z[2], part[0]));
+    }
+};
+
+/// Is the place in a cell that has neighbours on all sides? Then its rows.
+template <class T>
+[[gnu::always_inline]] inline bool find_rows(const PlacedSamples<T>& samples, const Vec3& place, RowsAround<T>& rows) {
+    std::int64_t first = 0;
+    for (std::size_t a = 0; a < 3; ++a) {
+        const auto at = static_cast<float>(place[static_cast<int>(a)]);
+        if (!(at >= 1 && at < samples.last[a] - 1)) return false;
+        const auto cell = static_cast<std::int32_t>(at);
+        rows.part[a] = at - static_cast<float>(cell);
+        first += samples.stride[a] * cell;
+    }
+    rows.first = samples.first + first, rows.y = samples.stride[1], rows.z = samples.stride[2];
+    return true;
 }
 
 }  // namespace
@@ -131,6 +200,10 @@ ISOATLAS_TARGET_CLONES void Trilinear<T>::places(const RaySegments& ray, std::in
 
 template <class T>
 ISOATLAS_TARGET_CLONES void Trilinear<T>::fall(const Vec3& place, Vec3& difference) const {
+    if constexpr (sizeof(T) <= 2 || std::is_same_v<T, float>) {  // others have more digits than a float
+        RowsAround<T> rows;
+        if (find_rows(samples_, place, rows)) return rows.fall(difference);
+    }
     // In front of the place and behind it, along each axis, kept inside by interpolate(); two lanes are not needed.
     constexpr std::array<Numbers, 3> kShift{{{-1, 1, 0, 0, 0, 0, 0, 0}, {0, 0, -1, 1, 0, 0, 0, 0}, {0, 0, 0, 0, -1, 1, 0, 0}}};
     std::array<Numbers, 3> places;
