@@ -9,7 +9,7 @@ SHELL := /bin/bash
 export CALLER := $(PWD)
 export VOLUME ARGS PREFIX SECONDS_PER_TARGET
 
-.PHONY: help demo quick test check build install package format lint bench memory studies table131 fuzz asan tsan coverage clean shared_data
+.PHONY: help demo quick test check build install package format lint bench memory studies figures table131 fuzz asan tsan coverage clean shared_data
 
 help: ## this list
 	@awk -F ':.*## ' '/^[a-z0-9]+:.*## / { printf "  make %-10s %s\n", $$1, $$2 }' Makefile
@@ -50,6 +50,9 @@ memory: build ## does --memory hold? volumes of all kinds, sizes and budgets; wr
 
 studies: shared_data build ## run the commands of docs/studies and remake their pictures (needs ../shared/data)
 	@for page in docs/studies/[a-z]*.md; do ISOATLAS_CLI=$$PWD/build/release/bin/isoatlas python3 -B tests/docs/blocks.py pictures $$page; done
+
+figures: build ## the figures of docs/methods.md: what the dissertation's survey of methods shows, from data of our own
+	@/usr/bin/python3 -B scripts/figures build/release/bin/isoatlas docs/images/methods
 
 table131: shared_data build ## the dissertation's table 13.1 beside ours; writes docs/performance.md (needs ../shared/data)
 	@python3 bench/table131.py build/release/bin/isoatlas ../shared/data

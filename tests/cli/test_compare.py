@@ -160,6 +160,7 @@ class Compare(harness.CliTest):
         rows = page.tables["What each method makes, and at what cost"][1:] + page.tables["How each method finds the active cells"][1:]
         self.assertGreaterEqual(len(page.leads), len(rows))   # each title leads to what docs/methods.md says of it
         self.assertNotIn("query, ms over active cells, k", page.tables)
+        self.assertNotIn("![", (self.folder / "all.html").read_text())   # figures of the document are files beside it
 
     def test_an_image_and_a_volume_without_a_surface(self):
         self.run_ok("convert", "noise.nrrd", "--box", "0:14,0:14", "-o", "image.npy")

@@ -39,7 +39,8 @@ std::vector<MethodSection> parsed(std::string_view text) {
     std::vector<MethodSection> sections;
     std::string paragraph;
     const auto end_paragraph = [&] {
-        if (!paragraph.empty() && !sections.empty()) sections.back().html += "<p>" + html_of_markdown(paragraph) + "</p>";
+        const bool is_figure = paragraph.starts_with("![");  // a file beside the document
+        if (!paragraph.empty() && !is_figure && !sections.empty()) sections.back().html += "<p>" + html_of_markdown(paragraph) + "</p>";
         paragraph.clear();
     };
     bool is_method = false;

@@ -11,8 +11,12 @@ namespace {
 
 constexpr std::int64_t kMostCells = 3'000'000, kEnoughCells = 400'000;  ///< active ones, of a picture
 constexpr std::size_t kMostMarks = 30'000;
-constexpr double kMarkPixels = 1.6;  ///< radius
-constexpr double kOverlap = 1.3;     ///< of tiles: points lie up to half a diagonal beside the surface, which leaves gaps
+constexpr double kMarkPixels = 1.6;                    ///< radius
+constexpr std::int64_t kFewSamples = 27;               ///< so few are drawn, and the grid between them
+constexpr double kCellsAround = 25, kCellsAbove = 20;  ///< the same view of all such volumes: single cells are set side by side
+constexpr double kCellsMargin = 1.15;                  ///< for the caption
+constexpr Colour kGridColour{0.35, 0.37, 0.42};
+constexpr double kOverlap = 1.3;  ///< of tiles: points lie up to half a diagonal beside the surface, which leaves gaps
 
 std::int64_t active_cells(const Volume& volume, double tau) {
     CellSearchCost cost;
@@ -49,6 +53,29 @@ bool mark(const Surface& surface, const SurfaceDefects& defects, double radius, 
     return true;
 }
 
+/// Rods between neighbouring samples, and balls on those that are High: of small volumes, in which single cells are looked at.
+Surface grid_of(const Volume& volume, double tau) {
+    constexpr double kRod = 0.008, kBall = 0.05;  // radius, of the smallest spacing
+    const Extent& extent = volume.info.extent;
+    const Geometry& geometry = volume.info.geometry;
+    Shapes shapes;
+    if (extent.voxels() > kFewSamples) return {};
+    const double unit = std::ranges::min(geometry.spacing);
+    for (std::int64_t i = 0; i < extent.voxels(); ++i) {
+        const auto place = [&](const Index3& at) {
+            return to_physical(geometry, {static_cast<double>(at[0]), static_cast<double>(at[1]), static_cast<double>(at[2])});
+        };
+        const Index3 here = extent.voxel(i);
+        if (volume.value(i) >= tau) shapes.add_ball(place(here), kBall * unit);
+        for (int axis = 0; axis < 3; ++axis) {
+            Index3 next = here;
+            if (++next[axis] < extent.size[axis]) shapes.add_rod(place(here), place(next), kRod * unit);
+        }
+    }
+    add_normals(shapes.surface());
+    return std::move(shapes.surface());
+}
+
 /// Its sides are those of the small cubes: points of one cell are that far from each other.
 Surface tiles_of(const PointCloud& cloud, const Vec3& sides) {
     Shapes tiles;
@@ -74,6 +101,13 @@ void SurfacePictures::choose_camera(const Surface& reference) {
     is_empty_ = reference.triangles.empty();
     if (is_empty_) return;
     Scene scene;
+    grid_ = grid_of(volume_, tau_);
+    if (!grid_.triangles.empty()) {
+        scene.objects.push_back({.surface = grid_});
+        camera_ = fit_camera(scene, view_from(kCellsAround, kCellsAbove), options());
+        camera_.height *= kCellsMargin;
+        return;
+    }
     scene.objects.push_back({.surface = reference});
     camera_ = fit_camera(scene, best_view(scene, {0, 0, 1}, context_), options());
 }
@@ -86,6 +120,7 @@ RenderOptions SurfacePictures::options() const {
 }
 
 void SurfacePictures::draw(const ComparedMethod& method, Scene scene, bool shows_all) {
+    scene.objects.push_back({.surface = grid_, .colour = kGridColour});
     std::erase_if(scene.objects, [](const SceneObject& object) { return object.surface.triangles.empty(); });
     RenderOptions own = options();
     if (use_ == PictureUse::sheet) own.caption = {method.title};

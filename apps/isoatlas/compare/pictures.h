@@ -33,7 +33,7 @@ public:
         context_.progress = {};
     }
 
-    /// The first one chooses the camera: its best view.
+    /// The first one chooses the camera: its best view; of a few cells always the same one, with the grid between the samples.
     void add(const ExtractedSurface& one, const SurfaceInHand& made);
     /// The first crossing of each ray with the isosurface of the trilinear function, without triangles.
     void add_ray_casting();
@@ -56,6 +56,7 @@ private:
     Context context_;
     bool has_camera_ = false, is_empty_ = true;
     Camera camera_;
+    Surface grid_;  ///< of the samples of a small volume
     std::vector<MethodPicture> pictures_;
 };
 
