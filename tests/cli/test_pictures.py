@@ -85,6 +85,17 @@ class Pictures(CliTest):
         self.assertGreater(walls, 0)
         self.run_error(2, "render", "hollow.nrrd", "--tau", "0.5", "--points", "2", "--opacity", "0.5", "-o", "p.png")
 
+    def test_points_of_a_store_read_what_the_surface_needs(self):
+        self.run_ok("phantom", "demo", "-o", "demo.nrrd", "--quiet")
+        self.run_ok("build", "demo.nrrd", "-o", "demo.atlas", "--quiet")
+        tau = str(0.9 * self.run_json("info", "demo.nrrd")["values"]["high"])
+        words = ["--tau", tau, "--points", "2", *self.small, "-o"]
+        stored = self.run_json("render", "demo.atlas", *words, "stored.png")
+        self.run_ok("render", "demo.nrrd", *words, "whole.png")
+        self.assertEqual((self.folder / "stored.png").read_bytes(), (self.folder / "whole.png").read_bytes())
+        self.assertGreater(stored["objects"][0]["points"], 0)
+        self.assertLess(stored["reads"]["bricks"], 96 ** 3 / 1024)   # all
+
     def test_document(self):
         document = self.run_json("render", "figure.nrrd", "--tau", "60", "--tau", "30", "--slice", "z=12", "--volume", *self.small, "-o", "p.png")
         self.assert_schema(document, "render")

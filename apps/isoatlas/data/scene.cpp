@@ -92,7 +92,8 @@ SceneObject points_of(const Arguments& arguments, Sides& sides, const Wanted& wa
     const int divisions = arguments.picture.points;
     SceneObject object;
     object.surface = surface_of(sides, wanted);
-    PointCloud cloud = points_of_surface(source.volume(), object.surface, divisions, source.context());
+    const double tau = object.surface.tau;
+    PointCloud cloud = points_of_surface(source.volume({.values = {{tau, tau}}}), object.surface, divisions, source.context());
     object.name = fmt::format("{}, {} points", wanted.name, count_text(std::ssize(cloud.points)));
     object.surface.points = std::move(cloud.points), object.surface.normals = std::move(cloud.normals);
     object.surface.triangles = {};
