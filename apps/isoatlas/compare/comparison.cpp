@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <numeric>
 #include <utility>
 
 #include "compare/seconds_of.h"
 #include "data/temporary_folder.h"
+#include "text/progress.h"
 
 namespace isoatlas::cli {
 namespace {
@@ -38,7 +38,7 @@ public:
 
 private:
     void tell() const {
-        if (tell_) tell_({.phase = method_, .phase_index = begun_, .phase_count = count_});
+        if (tell_) tell_({.phase = method_, .phase_index = begun_, .phase_count = count_, .fraction = kUnknownFraction});
     }
     Context context_;
     std::function<void(const Progress&)> tell_;
@@ -192,7 +192,13 @@ std::vector<SearchRun> run_searches(const std::vector<ComparedSearch>& methods, 
             runs.push_back({.method = method, .missing_memory = missing});
             continue;
         }
-        runs.push_back(runner.run(method));
+        try {
+            runs.push_back(runner.run(method));
+        } catch (const Error& error) {  // a method may refuse what the others can do
+            if (error.kind() != ErrorKind::resource) throw;
+            runs.push_back({.method = method, .refusal = error.text().what});
+            continue;
+        }
         forecast.learn(runs.back(), runner.cells());
     }
     return runs;
@@ -201,17 +207,16 @@ std::vector<SearchRun> run_searches(const std::vector<ComparedSearch>& methods, 
 ExtractedSurface measured(const ComparedMethod& method, double seconds, const SurfaceInHand& made) {
     const Surface& surface = made.result.surface;
     const PointCloud& cloud = made.result.points;
-    const SurfaceReport report = inspect(surface.points, surface.triangles);
     ExtractedSurface one{.method = method, .seconds = seconds, .cost = made.result.cost};
     one.is_points = !cloud.points.empty();
-    one.points = one.is_points ? std::ssize(cloud.points) : report.points;
-    one.triangles = report.triangles;
+    one.points = one.is_points ? std::ssize(cloud.points) : std::ssize(surface.points);
+    one.triangles = std::ssize(surface.triangles);
     one.bytes = static_cast<std::int64_t>(surface.points.size() * sizeof(surface.points[0]) +
                                           surface.triangles.size() * sizeof(surface.triangles[0]) +
                                           cloud.points.size() * (sizeof(cloud.points[0]) + sizeof(cloud.normals[0])));
     one.components = made.difference.components, one.wrong_components = made.difference.wrong;
-    one.euler = std::accumulate(report.component_chi.begin(), report.component_chi.end(), std::int64_t{0});
-    if (!one.is_points) one.genus = genus_of(made.defects, std::ssize(report.component_chi), one.euler);
+    one.euler = made.defects.euler;
+    if (!one.is_points) one.genus = genus_of(made.defects);
     one.hole_edges = std::ssize(made.defects.hole_edges), one.non_manifold_edges = std::ssize(made.defects.non_manifold_edges);
     one.zero_area_triangles = std::ssize(made.defects.zero_area_triangles);
     return one;
@@ -255,6 +260,15 @@ std::vector<std::int64_t> steps_of(const Extent& extent, std::int64_t sizes) {
     return steps;
 }
 
+/// Of a large volume without a study over sizes: a coarser one tells how much memory searches take. 1: the volume is small enough.
+std::int64_t trial_step(const Extent& extent, bool has_study) {
+    constexpr std::int64_t kLarge = 4'000'000, kFew = 1'000'000;
+    std::int64_t step = 1;
+    if (has_study || cells_of(extent) <= kLarge) return step;
+    while (cells_of(extent) / (step * step * step) > kFew) step *= 2;
+    return step;
+}
+
 }  // namespace
 
 std::vector<ExtractedSurface> run_extractors(const Volume& volume, double tau, const std::vector<ComparedExtractor>& methods,
@@ -267,11 +281,18 @@ Comparison run_comparison(const Volume& volume, double tau, const CompareOptions
                           const Context& context) {
     const std::vector<ComparedSearch>& searches = options.methods.searches;
     const std::vector<std::int64_t> steps = searches.empty() ? std::vector<std::int64_t>{} : steps_of(volume.info.extent, options.sizes);
-    Stages stages(context, options.methods.extractors.size() + (steps.size() + 1) * searches.size());
-    Comparison found{.info = volume.info, .tau = tau, .cells = cells_of(volume.info.extent)};
-    found.surfaces = run_staged(volume, tau, options.methods.extractors, look, stages);
+    const std::int64_t trial = searches.empty() ? 1 : trial_step(volume.info.extent, !steps.empty());
+    Stages stages(context, options.methods.extractors.size() + (steps.size() + (trial > 1 ? 2 : 1)) * searches.size());
+    Comparison found{.info = volume.info, .tau = tau, .cells = cells_of(volume.info.extent), .surface_part = options.surface_part};
+    const Volume part = options.surface_part ? crop(volume, *options.surface_part) : Volume();
+    found.surfaces = run_staged(options.surface_part ? part : volume, tau, options.methods.extractors, look, stages);
     if (searches.empty()) return found;
     MemoryForecast forecast(options.memory);
+    if (trial > 1) {
+        const Volume coarse = every(volume, trial);
+        SearchRunner runner(coarse, {tau}, stages);
+        static_cast<void>(run_searches(searches, runner, forecast));
+    }
     for (const std::int64_t step : steps) {
         const Volume coarse = every(volume, step);
         SearchRunner runner(coarse, {tau}, stages);

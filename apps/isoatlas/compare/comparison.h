@@ -5,6 +5,7 @@
 #include <array>
 #include <functional>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "compare/methods.h"
@@ -46,6 +47,8 @@ struct SearchRun {
     std::optional<double> cold_seconds{};    ///< of a file: of the same query before, when no page of the file was in memory
     std::vector<SearchQuery> at_isovalue{};  ///< then, at those of the study
     std::int64_t missing_memory = 0;         ///< not 0: it did not run, as it would have needed about so many bytes
+    std::string refusal{};                   ///< not empty: it did not run, and why
+    [[nodiscard]] bool has_run() const { return missing_memory == 0 && refusal.empty(); }
 };
 
 /// One volume of the study over sizes.
@@ -60,6 +63,7 @@ struct Comparison {
     VolumeInfo info;
     double tau = 0;
     std::int64_t cells = 0, active = 0;
+    std::optional<SampleBox> surface_part{};   ///< of which surfaces were made; none: the volume
     std::vector<ExtractedSurface> surfaces{};  ///< none of an image
     std::vector<SearchRun> searches{};
     std::vector<double> isovalues{};        ///< of the study, ascending stored values; empty: no study
@@ -69,8 +73,9 @@ struct Comparison {
 
 struct CompareOptions {
     ComparedMethods methods;
-    std::int64_t isovalues = 0, sizes = 0;  ///< of the studies
-    std::int64_t memory = 0;                ///< bytes for a search structure while it is built
+    std::int64_t isovalues = 0, sizes = 0;    ///< of the studies
+    std::int64_t memory = 0;                  ///< bytes for a search structure while it is built
+    std::optional<SampleBox> surface_part{};  ///< surfaces of these samples alone
 };
 
 /// The reference, the last one of the list, runs first; one other surface is in memory at a time. None of an image.

@@ -51,7 +51,7 @@ std::vector<Growth::Line> over_cells(const Comparison& found, Take take) {
     for (const SizeRun& size : found.sizes) {
         for (std::size_t number = 0; number < size.searches.size(); ++number) {
             const SearchRun& run = size.searches[number];
-            if (run.missing_memory == 0) lines.add(number, run.method.title, static_cast<double>(size.cells), take(run, run.query));
+            if (run.has_run()) lines.add(number, run.method.title, static_cast<double>(size.cells), take(run, run.query));
         }
     }
     return lines.take();

@@ -47,6 +47,8 @@ struct Growth {
 [[nodiscard]] std::string milliseconds(double seconds);
 /// "0.0123"; "-" where nothing was measured.
 [[nodiscard]] std::string distance_text(const SurfaceDistance& distance, double voxels);
+/// Which part of the volume the surfaces are of, and why; there is one.
+[[nodiscard]] std::string part_text(const Comparison& found);
 /// "1.4 GB"
 [[nodiscard]] std::string size_text(std::int64_t bytes);
 

@@ -59,7 +59,7 @@ std::string figure_html(const MethodPicture& picture, const Comparison& found, b
         size = one->is_points ? counted(one->points, "point") : counted(one->triangles, "triangle");
         faults = one->is_points ? "" : faults_text(*one);
     }
-    const std::string of_all = is_part && is_method ? " in the whole volume" : "";
+    const std::string of_all = is_part && is_method && !found.surface_part ? " in the whole volume" : "";
     std::string html = fmt::format(R"(<li><figure><img width="{0}" height="{0}" alt="{1}: {2}{3}" src="{4}">)", SurfacePictures::kSide,
                                    title, size, faults.empty() ? "" : "; " + faults, data_address(picture.image));
     html += fmt::format("<figcaption>{}<span>{}{}</span>", is_method ? linked_title(one->method) : title, size, of_all);
@@ -79,7 +79,9 @@ std::string pictures_html(const Comparison& found, const ComparePage& page) {
     html += fmt::format(R"(<span style="--key: {}">belongs to another component of the trilinear surface</span></p>)",
                         css_colour(kMisplacedColour));
     html += "\n<p class=\"note\">All from one camera. Surfaces are open where they leave the volume.";
-    if (page.pictured) {
+    if (found.surface_part) {
+        html += " " + part_text(found);
+    } else if (page.pictured) {
         const Index3 size = page.pictured->size();
         html += fmt::format(" The surface of the whole volume is too large for a picture: these show {} x {} x {} samples in the middle.",
                             size[0], size[1], size[2]);
@@ -145,9 +147,10 @@ std::string searches_html(const Comparison& found) {
     for (const SearchRun& one : found.searches) {
         table.begin(linked_title(one.method));
         table.add(html_text(one.method.section)), table.add(html_text(one.method.cost));
-        if (one.missing_memory > 0) {
+        if (!one.has_run()) {
             for (int i = 0; i < 7; ++i) table.add("–");
-            table.add("would need about " + size_text(one.missing_memory)), table.add("–");
+            table.add(one.missing_memory > 0 ? "would need about " + size_text(one.missing_memory) : "left out: " + html_text(one.refusal));
+            table.add("–");
             continue;
         }
         const bool is_file = one.file_bytes > 0;

@@ -9,7 +9,7 @@
 namespace isoatlas::cli {
 namespace {
 
-constexpr std::int64_t kMostCells = 3'000'000, kEnoughCells = 400'000;  ///< active ones, of a picture
+constexpr std::int64_t kMostCells = 1'000'000, kEnoughCells = 400'000;  ///< active ones
 constexpr std::size_t kMostMarks = 30'000;
 constexpr double kMarkPixels = 1.6;                    ///< radius
 constexpr std::int64_t kFewSamples = 27;               ///< so few are drawn, and the grid between them

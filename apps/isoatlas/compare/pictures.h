@@ -18,7 +18,8 @@ struct MethodPicture {
     bool shows_all_defects = true;
 };
 
-/// Surfaces of more cells are no pictures: the box in the middle of a volume that has fewer active cells; none: all of it.
+/// Surfaces of a million active cells are no pictures, and in noise connected contours of two million take minutes and gigabytes: the box
+/// in the middle of a volume that has fewer active cells; none: all of it.
 [[nodiscard]] std::optional<SampleBox> picture_box(const Volume& volume, double tau);
 
 /// page: transparent. sheet: light, with the names of the methods.

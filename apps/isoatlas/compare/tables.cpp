@@ -47,6 +47,7 @@ void add_query(Json& json, const SearchQuery& query) {
 
 void add_run(Json& json, const SearchRun& one) {
     json["missing_memory"] = one.missing_memory > 0 ? Json(one.missing_memory) : Json(nullptr);
+    json["refusal"] = one.refusal.empty() ? Json(nullptr) : Json(one.refusal);
     json["build_seconds"] = one.build_seconds;
     json["cold_seconds"] = one.cold_seconds ? Json(*one.cold_seconds) : Json(nullptr);
     add_query(json, one.query);
@@ -59,7 +60,7 @@ Json isovalues_of(const Comparison& found) {
     for (std::size_t i = 0; i < found.isovalues.size(); ++i) {
         Json queries = Json::array();
         for (const SearchRun& one : found.searches) {
-            if (one.missing_memory > 0) continue;
+            if (!one.has_run()) continue;
             Json query{{"name", one.method.name}};
             add_query(query, one.at_isovalue[i]);
             queries.push_back(std::move(query));
@@ -96,7 +97,7 @@ std::string csv_line(const char* table, const SearchRun& one, double tau, std::i
                      const SearchQuery& query) {
     constexpr std::size_t kOfQuery = 9, kOfSurface = 13;  // columns behind the first five
     std::string line = fmt::format("{},{},{},{},{}", table, one.method.name, tau, cells, active);
-    if (one.missing_memory > 0) return line + std::string(kOfQuery + kOfSurface, ',') + '\n';
+    if (!one.has_run()) return line + std::string(kOfQuery + kOfSurface, ',') + '\n';
     const bool is_cold_too = one.cold_seconds && &query == &one.query;
     line += fmt::format(",{},{},{},{},{},{},{},{},{}", one.build_seconds, query.seconds,
                         is_cold_too ? fmt::format("{}", *one.cold_seconds) : "", query.cost.cells, query.cost.nodes, query.cost.blocks,
@@ -111,6 +112,9 @@ Json json_of(const Comparison& found, const VolumePictures& volume) {
     json["tau"] = number(found.info.calibration.reported(found.tau));
     json["cells"] = found.cells;
     json["active_cells"] = found.searches.empty() ? Json(nullptr) : Json(found.active);
+    json["surface_part"] = nullptr;
+    for (std::size_t axis = 0; found.surface_part && axis < 3; ++axis)
+        json["surface_part"].push_back({found.surface_part->begin[axis], found.surface_part->end[axis]});
     json["surfaces"] = Json::array();
     for (const ExtractedSurface& one : found.surfaces) json["surfaces"].push_back(json_of(one));
     json["searches"] = Json::array();

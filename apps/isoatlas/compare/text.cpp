@@ -43,7 +43,9 @@ void print_surfaces(Terminal& terminal, const Comparison& found) {
            "edges of the grid than any component of "
            "the\ntrilinear surface. Beside it: memory beside samples and surface. Voxels to trilinear: mean distance of what a\nmethod "
            "made to the trilinear surface, and the "
-           "largest; from it: the largest the other way, which shows what is missing.\n\n";
+           "largest; from it: the largest the other way, which shows what is missing.\n";
+    if (found.surface_part) terminal.out() << part_text(found) << '\n';
+    terminal.out() << '\n';
 }
 
 void print_searches(Terminal& terminal, const Comparison& found) {
@@ -59,9 +61,10 @@ void print_searches(Terminal& terminal, const Comparison& found) {
                  {"file"}});
     bool is_complete = true;
     for (const SearchRun& one : found.searches) {
-        if (one.missing_memory > 0) {
-            is_complete = false;
-            table.add({one.method.title, one.method.section, "-", "-", "-", "-", "-", "-", "about " + size_text(one.missing_memory), "-"});
+        if (!one.has_run()) {
+            is_complete = is_complete && one.missing_memory == 0;
+            const std::string memory = one.missing_memory > 0 ? "about " + size_text(one.missing_memory) : "-";
+            table.add({one.method.title, one.method.section, "-", "-", "-", "-", "-", "-", memory, "-"});
             continue;
         }
         const bool is_file = one.file_bytes > 0;
@@ -74,6 +77,9 @@ void print_searches(Terminal& terminal, const Comparison& found) {
     terminal.out() << '\n'
                    << counted(found.active, "active cell") << " of " << count_text(found.cells)
                    << "; every method finds them all. Sections are those of the dissertation\n";
+    for (const SearchRun& one : found.searches) {
+        if (!one.refusal.empty()) terminal.out() << one.method.title << " left out: " << one.refusal << '\n';
+    }
     if (!is_complete) terminal.out() << "Methods without times would have needed more memory than --memory allows\n";
 }
 
@@ -112,6 +118,14 @@ std::string distance_text(const SurfaceDistance& distance, double voxels) {
 }
 
 std::string size_text(std::int64_t bytes) { return bytes_text(static_cast<double>(bytes)); }
+
+std::string part_text(const Comparison& found) {
+    const SampleBox& part = *found.surface_part;
+    return fmt::format(
+        "Surfaces of more than a million cells take long: these are of the part {}:{},{}:{},{}:{} in the middle. --box makes "
+        "those of a part that you choose, also of all samples.",
+        part.begin[0], part.end[0], part.begin[1], part.end[1], part.begin[2], part.end[2]);
+}
 
 void print_text(Terminal& terminal, const Comparison& found) {
     if (!found.surfaces.empty()) print_surfaces(terminal, found);

@@ -24,6 +24,8 @@ double peak_memory() {
     return static_cast<double>(usage.ru_maxrss) * 1024;
 }
 
+std::string minutes_text(long seconds) { return fmt::format("{}:{:02}", seconds / 60, seconds % 60); }
+
 void to_stderr(const std::string& text) { [[maybe_unused]] const ssize_t written = ::write(STDERR_FILENO, text.data(), text.size()); }
 
 }  // namespace
@@ -33,11 +35,12 @@ std::string progress_line(const Progress& progress, double phase_seconds, bool b
     const double fraction = std::clamp(progress.fraction, 0.0, 1.0);
     const int full = static_cast<int>(fraction * width);
     std::string line = fmt::format("[{}/{}] {:<16}", progress.phase_index + 1, progress.phase_count, progress.phase);
+    if (progress.fraction < 0) return line + "  " + minutes_text(static_cast<long>(phase_seconds));
     if (bar) line += fmt::format(" {}{}", std::string(full, '#'), std::string(width - full, '.'));
     line += fmt::format(" {:3.0f} %", 100 * fraction);
     if (fraction > 0.01 && fraction < 1 && phase_seconds > 0.2) {
         const auto left = static_cast<long>(std::ceil(phase_seconds * (1 - fraction) / fraction));
-        line += fmt::format("  ETA {}:{:02}", left / 60, left % 60);
+        line += "  ETA " + minutes_text(left);
         if (progress.voxels > 0)
             line += fmt::format("  {:.3g} million voxels/s", 1e-6 * fraction * static_cast<double>(progress.voxels) / phase_seconds);
     }

@@ -10,6 +10,8 @@ namespace isoatlas::cli {
 
 class Terminal;
 
+inline constexpr double kUnknownFraction = -1;  ///< Progress::fraction of a phase that cannot tell: its time is shown instead
+
 class ProgressBar {
 public:
     explicit ProgressBar(Terminal& terminal);
@@ -29,7 +31,7 @@ private:
     bool drawn_ = false;
 };
 
-/// "[2/5] join tree  #######...  71 %  ETA 0:19"
+/// "[2/5] join tree  #######...  71 %  ETA 0:19"; of an unknown fraction "[2/5] join tree  0:19"
 [[nodiscard]] std::string progress_line(const Progress& progress, double phase_seconds, bool bar);
 
 }  // namespace isoatlas::cli

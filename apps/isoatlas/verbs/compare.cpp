@@ -41,16 +41,19 @@ std::string command_of(const Arguments& arguments) {
 Comparison compare(const Arguments& arguments, Source& source, ComparePage& page) {
     const Volume& volume = source.volume();
     const double tau = source.tau();
-    const CompareOptions options = compare_options_of(arguments);
-    const bool draws = !arguments.output.empty() && volume.info.extent.rank == 3 && !options.methods.extractors.empty();
-    if (!draws) return run_comparison(volume, tau, options, {}, source.context());
+    CompareOptions options = compare_options_of(arguments);
+    if (volume.info.extent.rank < 3 || options.methods.extractors.empty())
+        return run_comparison(volume, tau, options, {}, source.context());
     page.pictured = picture_box(volume, tau);
+    if (!arguments.box) options.surface_part = page.pictured;  // of a box that somebody chose: all of it
+    if (arguments.output.empty()) return run_comparison(volume, tau, options, {}, source.context());
     const Volume part = page.pictured ? crop(volume, *page.pictured) : Volume();
     const PictureUse use = makes_page(arguments) ? PictureUse::page : PictureUse::sheet;
     SurfacePictures pictures(page.pictured ? part : volume, tau, use, source.context());
     const LookAtSurface draw = [&pictures](const ExtractedSurface& one, const SurfaceInHand& made) { pictures.add(one, made); };
-    Comparison found = run_comparison(volume, tau, options, page.pictured ? LookAtSurface() : draw, source.context());
-    if (page.pictured) static_cast<void>(run_extractors(part, tau, options.methods.extractors, draw, source.context()));
+    const bool are_others = page.pictured && !options.surface_part;  // than those that are measured
+    Comparison found = run_comparison(volume, tau, options, are_others ? LookAtSurface() : draw, source.context());
+    if (are_others) static_cast<void>(run_extractors(part, tau, options.methods.extractors, draw, source.context()));
     pictures.add_ray_casting();
     page.pictures = pictures.pictures();
     if (makes_page(arguments) && pictures.camera() != nullptr)

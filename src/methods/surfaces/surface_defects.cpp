@@ -37,6 +37,23 @@ void count_rims(const std::vector<Edge>& open, SurfaceDefects& defects) {
     }
 }
 
+/// Counts the components and the points that triangles use.
+std::int64_t count_components(const Surface& surface, SurfaceDefects& defects) {
+    UnionFind<std::size_t> sets(surface.points.size());
+    std::vector<bool> is_used(surface.points.size());
+    for (const auto& t : surface.triangles) {
+        for (const std::int64_t point : t) is_used[static_cast<std::size_t>(point)] = true;
+        static_cast<void>(sets.join(static_cast<std::size_t>(t[0]), static_cast<std::size_t>(t[1])));
+        static_cast<void>(sets.join(static_cast<std::size_t>(t[0]), static_cast<std::size_t>(t[2])));
+    }
+    std::int64_t used = 0;
+    for (std::size_t point = 0; point < is_used.size(); ++point) {
+        used += is_used[point] ? 1 : 0;
+        defects.components += is_used[point] && sets.find(point) == point ? 1 : 0;
+    }
+    return used;
+}
+
 }  // namespace
 
 SurfaceDefects find_defects(const Surface& surface, const VolumeInfo& info) {
@@ -48,9 +65,11 @@ SurfaceDefects find_defects(const Surface& surface, const VolumeInfo& info) {
         for (std::size_t i = 0; i < 3; ++i) edges.push_back({std::min(t[i], t[(i + 1) % 3]), std::max(t[i], t[(i + 1) % 3])});
         if (has_zero_area(surface, t)) defects.zero_area_triangles.push_back(static_cast<std::int64_t>(number));
     }
+    defects.euler = count_components(surface, defects) + std::ssize(surface.triangles);
     std::ranges::sort(edges);
     for (std::size_t begin = 0, end = 0; begin < edges.size(); begin = end) {
         const Edge& edge = edges[begin];
+        --defects.euler;
         for (end = begin; end < edges.size() && edges[end] == edge; ++end) {
         }
         if (end - begin > 2) defects.non_manifold_edges.push_back(edge);
@@ -63,9 +82,9 @@ SurfaceDefects find_defects(const Surface& surface, const VolumeInfo& info) {
     return defects;
 }
 
-std::optional<std::int64_t> genus_of(const SurfaceDefects& defects, std::int64_t components, std::int64_t euler) {
+std::optional<std::int64_t> genus_of(const SurfaceDefects& defects) {
     if (defects.rims_meet || !defects.non_manifold_edges.empty()) return std::nullopt;
-    return (2 * components - euler - defects.rims) / 2;
+    return (2 * defects.components - defects.euler - defects.rims) / 2;
 }
 
 }  // namespace isoatlas
