@@ -120,6 +120,27 @@ class Compare(harness.CliTest):
         self.assertGreater(missing["interval-tree"], 80 << 20)
         self.assertEqual([each["missing_memory"] for each in found["sizes"][0]["searches"]], [None] * 3)
 
+    def test_a_search_that_refuses_is_left_out(self):
+        self.run_ok("phantom", "noise", "--size", "100", "-o", "large.nrrd")
+        told = self.run_ok("compare", "large.nrrd", "--tau", "0.1", "--methods", "octree,zone-files-by-zone").stdout
+        self.assertRegex(told, "left out: the lists would have more than .* entries")
+        found = self.run_json("compare", "large.nrrd", "--tau", "0.1", "--methods", "octree,zone-files-by-zone", "-o", "refused.html", "--sizes", "1")
+        refusals = {each["name"]: each["refusal"] for each in found["searches"]}
+        self.assertEqual((refusals["brute-force"], refusals["octree"]), (None, None))
+        self.assertIn("entries", refusals["zone-files-by-zone"])
+        self.assertIn("left out: the lists", (self.folder / "refused.html").read_text())
+
+    def test_surfaces_of_more_than_a_million_cells_are_those_of_the_middle(self):
+        self.run_ok("phantom", "noise", "--size", "110", "-o", "large.nrrd")
+        run = lambda *options: self.run_json("compare", "large.nrrd", "--tau", "0.5001", "--methods", "trilinear", *options)
+        part = run()
+        box = ",".join(f"{begin}:{end}" for begin, end in part["surface_part"])
+        chosen = run("--box", box)
+        self.assertIsNone(chosen["surface_part"])
+        self.assertEqual(chosen["surfaces"][0]["triangles"], part["surfaces"][0]["triangles"])
+        self.assertGreater(run("--box", "0:110,0:110,0:110")["surfaces"][0]["triangles"], 3 * part["surfaces"][0]["triangles"])
+        self.assertIn(f"the part {box} in the middle", self.run_ok("compare", "large.nrrd", "--tau", "0.5001", "--methods", "trilinear").stdout)
+
     def test_the_page(self):
         name = 'a<b>&"c".nrrd'
         before = self.run_json("compare", name, "--tau", "0.5")

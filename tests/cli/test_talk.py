@@ -101,6 +101,12 @@ class Talk(CliTest):
         self.assertRegex(shown, r"\r\x1b\[K[^\r]*$|\r\x1b\[K")
         self.assertNotIn("\r", self.on_a_terminal(["tree", "big.nrrd", "--threads", "1", "--quiet"]).replace("\r\n", "\n"))
 
+    def test_progress_of_what_cannot_tell_how_far_it_is(self):
+        self.run_ok("phantom", "noise", "--size", "36", "-o", "noise.nrrd")
+        shown = self.on_a_terminal(["compare", "noise.nrrd", "--tau", "0.5001", "--methods", "connected-contours"])
+        self.assertRegex(shown, r"\[\d/\d\] Connected contours of slices +\d:\d\d")
+        self.assertNotIn("%", shown)
+
     def test_colours_only_when_wanted(self):
         self.assertIn("\033[1m", self.on_a_terminal(["objects", "v.nrrd"]))
         self.assertNotIn("\033[1m", self.on_a_terminal(["objects", "v.nrrd", "--no-color"]))
