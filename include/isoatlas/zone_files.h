@@ -102,7 +102,8 @@ struct ZoneFileRow {
 };
 
 /// Queries the isovalues of search_costs(), or `most` of them, evenly chosen. store: an atlas of the volume, opened anew for each; empty:
-/// none. What counts and reads have in common is the same: `active`, and, by_zone, reads.cells_filed == counted.zones_loaded. They differ
+/// none. by_path: counted.zones_loaded and zones_visited are 0, as the file has no such lists and counting them would take most of the
+/// time. What counts and reads have in common is the same: `active`, and, by_zone, reads.cells_filed == counted.zones_loaded. They differ
 /// where the table has a file for a zone and the dissertation one for a component: lists without active cells are not loaded, and each
 /// list that is loaded may have a last cell below tau that is visited. Of an interval tree, what is loaded are the blocks that are read,
 /// and what is visited are a few cells more than the active ones, not all from the highest down.

@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "bricks/brick_surroundings.h"
+#include "census/brick_costs.h"
 #include "census/interval_counts.h"
 #include "census/zone_files.h"
 #include "field/brick_grid.h"
@@ -127,17 +128,26 @@ struct Counted {
 };
 
 Counted count_all(const Volume& volume, const Analysis& analysis, const Context& context) {
-    const std::vector<double> isovalues = isovalues_of(volume, analysis);
-    const std::vector<std::int64_t> active = count_active(volume, isovalues, context);
-    const BrickCounts bricks = count_bricks(volume, isovalues, context);
+    Counted counted{brick_costs(volume, analysis, context), {}};
+    std::vector<double> isovalues;
+    for (const SearchCost& cost : counted.costs) isovalues.push_back(cost.tau);
     ZoneFiles files = count_zone_files(volume, analysis, isovalues, context);
-    Counted counted{{}, std::move(files.points)};
     for (std::size_t i = 0; i < isovalues.size(); ++i)
-        counted.costs.push_back({isovalues[i], active[i], files.loaded[i], files.visited[i], bricks.cells[i], bricks.bricks[i]});
+        counted.costs[i].zones_loaded = files.loaded[i], counted.costs[i].zones_visited = files.visited[i];
+    counted.zone_points = std::move(files.points);
     return counted;
 }
 
 }  // namespace
+
+std::vector<SearchCost> brick_costs(const Volume& volume, const Analysis& analysis, const Context& context) {
+    const std::vector<double> isovalues = isovalues_of(volume, analysis);
+    const std::vector<std::int64_t> active = count_active(volume, isovalues, context);
+    const BrickCounts bricks = count_bricks(volume, isovalues, context);
+    std::vector<SearchCost> costs;
+    for (std::size_t i = 0; i < isovalues.size(); ++i) costs.push_back({isovalues[i], active[i], 0, 0, bricks.cells[i], bricks.bricks[i]});
+    return costs;
+}
 
 std::vector<SearchCost> search_costs(const Volume& volume, const Analysis& analysis, const Context& context) {
     const EnvironmentScope scope(context);

@@ -13,6 +13,7 @@
 #include "oracle/compare.h"
 #include "oracle/mesh_checks.h"
 #include "oracle/volumes.h"
+#include "oracle/zone_points.h"
 
 namespace oracle {
 namespace {
@@ -21,23 +22,6 @@ using isoatlas::Analysis;
 using isoatlas::SearchCost;
 using isoatlas::SearchTable;
 using isoatlas::Volume;
-
-/// Corners of all cells.
-std::vector<std::vector<Index>> cells_of(const Grid& grid) {
-    std::vector<std::vector<Index>> cells;
-    const Index deep = grid.rank == 2 ? 1 : grid.size[2] - 1;
-    for (Index z = 0; z < deep; ++z) {
-        for (Index y = 0; y + 1 < grid.size[1]; ++y) {
-            for (Index x = 0; x + 1 < grid.size[0]; ++x) {
-                std::vector<Index> corners;
-                for (Index k = 0; k < (grid.rank == 2 ? 4 : 8); ++k)
-                    corners.push_back(grid.index(x + (k & 1), y + (k >> 1 & 1), z + (k >> 2)));
-                cells.push_back(corners);
-            }
-        }
-    }
-    return cells;
-}
 
 double lowest(const Grid& grid, const std::vector<Index>& cell) {
     double low = kInfinity;
@@ -57,23 +41,9 @@ struct File {
     std::vector<double> cells;  ///< their highest samples, descending
 };
 
-bool becomes(const Analysis& analysis, isoatlas::EventId from, isoatlas::EventId to) {
-    while (from.exists() && from != to) from = analysis.event(from).parent;
-    return from == to;
-}
-
 File file_of(const Grid& grid, const Analysis& analysis, isoatlas::EventId event) {
     const isoatlas::Event e = analysis.event(event);
-    File file{e.zone.tau_low, e.zone.tau_high, {}, {}};
-    std::vector<bool> inside(static_cast<std::size_t>(grid.voxels()));  // the object when its zone ends
-    for (Index v = 0; v < grid.voxels(); ++v) inside[v] = becomes(analysis, analysis.zone(isoatlas::VoxelId(v)), event);
-    for (Index v = 0; v < grid.voxels(); ++v) {
-        if (analysis.zone(isoatlas::VoxelId(v)) == event) file.points.insert(v);
-        for (int d = 0; d < grid.directions(); ++d) {
-            const Index other = grid.neighbour(v, d);
-            if (!inside[v] && other >= 0 && inside[other]) file.points.insert(v);
-        }
-    }
+    File file{e.zone.tau_low, e.zone.tau_high, zone_points(grid, analysis, event), {}};
     for (const auto& cell : cells_of(grid)) {
         if (std::ranges::any_of(cell, [&](Index v) { return file.points.contains(v); })) file.cells.push_back(highest(grid, cell));
     }

@@ -1,5 +1,6 @@
 #include <algorithm>
 
+#include "census/brick_costs.h"
 #include "isoatlas/atlas.h"
 #include "isoatlas/environment.h"
 #include "isoatlas/error.h"
@@ -38,7 +39,8 @@ std::vector<ZoneFileRow> zone_file_table(ZoneFileSearch& file, const Volume& vol
                                          const std::string& store, const Context& context) {
     const EnvironmentScope scope(context);
     if (most < 1) throw Error(ErrorKind::usage, {.what = std::to_string(most) + " isovalues", .expected = "at least one"});
-    const std::vector<SearchCost> costs = search_costs(volume, analysis, context);
+    const std::vector<SearchCost> costs =
+        file.layout() == ZoneLayout::by_zone ? search_costs(volume, analysis, context) : brick_costs(volume, analysis, context);
     std::vector<ZoneFileRow> rows;
     for (const std::size_t i : evenly_chosen(costs.size(), most)) {
         ZoneFileRow row;

@@ -19,6 +19,7 @@
 #include "isoatlas/phantom.h"
 #include "oracle/mesh_checks.h"
 #include "oracle/stores.h"
+#include "oracle/zone_points.h"
 
 namespace oracle {
 namespace {
@@ -44,23 +45,6 @@ ExtractOptions plain(isoatlas::Interpolant interpolant, Boundary boundary) {
     options.surface.boundary = boundary;
     options.surface.normals = options.surface.ids = false;
     return options;
-}
-
-/// Corners of all cells, in the order of their numbers.
-std::vector<std::vector<Index>> cells_of(const Grid& grid) {
-    std::vector<std::vector<Index>> cells;
-    const Index deep = grid.rank == 2 ? 1 : grid.size[2] - 1;
-    for (Index z = 0; z < deep; ++z) {
-        for (Index y = 0; y + 1 < grid.size[1]; ++y) {
-            for (Index x = 0; x + 1 < grid.size[0]; ++x) {
-                std::vector<Index> corners;
-                for (Index k = 0; k < (grid.rank == 2 ? 4 : 8); ++k)
-                    corners.push_back(grid.index(x + (k & 1), y + (k >> 1 & 1), z + (k >> 2)));
-                cells.push_back(corners);
-            }
-        }
-    }
-    return cells;
 }
 
 class ZoneFileBytes : public Stores {
@@ -152,9 +136,20 @@ RC_GTEST_FIXTURE_PROP(ZoneFiles, AreLinearByPath, ()) {
 RC_GTEST_FIXTURE_PROP(ZoneFiles, ReadWhatTheTableCounts, ()) {
     const Filed filed = arbitrary_file();
     ZoneFileSearch file(path_);
-    for (const ZoneFileRow& row : isoatlas::zone_file_table(file, filed.volume, filed.analysis, 1000)) {
-        RC_ASSERT(row.cost.active == row.counted.active);
-        if (filed.options.layout == ZoneLayout::by_path) continue;
+    const std::vector<isoatlas::SearchCost> costs = isoatlas::search_costs(filed.volume, filed.analysis);
+    const std::vector<ZoneFileRow> rows = isoatlas::zone_file_table(file, filed.volume, filed.analysis, 1000);
+    RC_ASSERT(rows.size() == costs.size());
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+        const ZoneFileRow& row = rows[i];
+        RC_ASSERT(row.counted.tau == costs[i].tau);
+        RC_ASSERT(row.counted.bricks_loaded == costs[i].bricks_loaded);
+        RC_ASSERT(row.cost.active == costs[i].active);
+        RC_ASSERT(row.counted.active == costs[i].active);
+        if (filed.options.layout == ZoneLayout::by_path) {
+            RC_ASSERT(row.counted.zones_loaded == 0);
+            continue;
+        }
+        RC_ASSERT(row.counted.zones_loaded == costs[i].zones_loaded);
         RC_ASSERT(row.reads.cells_filed == row.counted.zones_loaded);
         if (filed.options.block_bytes < 65536) continue;  // lists alone
         RC_ASSERT(row.reads.cells_visited <= row.counted.zones_visited + row.reads.components);
@@ -191,26 +186,6 @@ RC_GTEST_FIXTURE_PROP(ZoneFiles, HaveACellOnceForEachObject, ()) {
     }
 }
 
-/// The points of a zone file, as the dissertation says: voxels of the zone, and those beside its object when it ends.
-std::set<Index> points_of(const Grid& grid, const Analysis& analysis, isoatlas::EventId event) {
-    const double end = analysis.event(event).zone.tau_low;
-    std::vector<bool> inside(static_cast<std::size_t>(grid.voxels()));
-    for (Index v = 0; v < grid.voxels(); ++v) {
-        isoatlas::EventId e = analysis.zone(isoatlas::VoxelId(v));
-        while (e != event && analysis.event(e).zone.tau_low > end) e = analysis.event(e).parent;
-        inside[v] = e == event;
-    }
-    std::set<Index> points;
-    for (Index v = 0; v < grid.voxels(); ++v) {
-        if (analysis.zone(isoatlas::VoxelId(v)) == event) points.insert(v);
-        for (int d = 0; d < grid.directions(); ++d) {
-            const Index other = grid.neighbour(v, d);
-            if (!inside[v] && other >= 0 && inside[other]) points.insert(v);
-        }
-    }
-    return points;
-}
-
 RC_GTEST_FIXTURE_PROP(ZoneFiles, HaveTheComponentsOfEachZone, ()) {
     const Grid grid = *arbitrary_grid();
     const Volume volume = to_volume(grid, arbitrary_type(grid));
@@ -218,7 +193,7 @@ RC_GTEST_FIXTURE_PROP(ZoneFiles, HaveTheComponentsOfEachZone, ()) {
     isoatlas::write_zone_files(path_, volume, analysis, {.block_bytes = 512, .layout = ZoneLayout::by_zone});
     Index components = 0, filed = 0;
     for (const isoatlas::EventId e : isoatlas::ids<isoatlas::EventId>(analysis.event_count())) {
-        const std::set<Index> points = points_of(grid, analysis, e);
+        const std::set<Index> points = zone_points(grid, analysis, e);
         std::vector<std::set<Index>> parts;  // of points that cells join
         for (const auto& cell : cells_of(grid)) {
             std::set<Index> own;
