@@ -7,7 +7,7 @@
 // VOLUME: as in bench_engine. Prints one JSON document: for each layout the file and what queries at so many isovalues of table 13.1 read
 // (mean), a surface from the file compared with that of the volume, and the bytes that a store reads for the same surfaces. Counts do not
 // depend on the machine; seconds do. By zone with too many entries: only how many; --by-path: not even that, which takes long. --memory: a
-// budget for loading, analysing and writing; tables of reads need several numbers a zone beside it.
+// budget for loading, analysing and writing; by zone, tables of reads need several numbers a zone beside it.
 #include <isoatlas/isoatlas.h>
 
 #include <cstdio>
