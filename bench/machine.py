@@ -33,7 +33,7 @@ def vectors():
     return f"{widest()}, ISOATLAS_SIMD={asked}" if asked else widest()
 
 
-HEAD = re.compile(r"^.*, (?P<widest>AVX-512|AVX2|no AVX2)(, ISOATLAS_SIMD=(?P<asked>\w+))?, \d+ processors, [\d-]+, "
+HEAD = re.compile(r"^(?P<processor>.*), (?P<widest>AVX-512|AVX2|no AVX2)(, ISOATLAS_SIMD=(?P<asked>\w+))?, \d+ processors, [\d-]+, "
                   r"commit [0-9a-f]{8,40}\.$", re.M)
 
 
@@ -43,6 +43,10 @@ def kind(head):
     if found["asked"] == "avx2" and found["widest"] == "AVX-512":
         return "AVX2"
     return "no AVX2" if found["asked"] == "scalar" else found["widest"]
+
+
+def processor(head):
+    return HEAD.match(head)["processor"]
 
 
 def machine():

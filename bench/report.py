@@ -5,7 +5,7 @@
     report.py FOLDER [PAGE]   FOLDER holds what was measured: engine.json, extract.json, store.json, render.json, pages.json,
                               methods.json, methods-surfaces.json and scale-SECTION.json, those that are there; PAGE: docs/performance.md
 
-A table replaces the one of the same vectors (AVX2, AVX-512); that of the other kind of processor stays. What misses its goal is in bold.
+A table replaces the one of the same processor and vectors (AVX2, AVX-512); those of others stay. What misses its goal is in bold.
 """
 import json
 import math
@@ -13,7 +13,7 @@ import re
 import sys
 from pathlib import Path
 
-from machine import HEAD, in_words, kind
+from machine import HEAD, in_words, kind, processor
 
 
 def table(header, rows):
@@ -195,20 +195,20 @@ ORDER = ["no AVX2", "AVX2", "AVX-512"]
 
 
 def parts_of(text):
-    """{vectors: head and table}: what is between the marks, one table for each kind of processor. What has no head is old: dropped."""
+    """{(vectors, processor): head and table}: what is between the marks. What has no head is old: dropped."""
     heads = list(HEAD.finditer(text))
     ends = [head.start() for head in heads[1:]] + [len(text)]
-    return {kind(head[0]): text[head.start():end].strip() for head, end in zip(heads, ends)}
+    return {(kind(head[0]), processor(head[0])): text[head.start():end].strip() for head, end in zip(heads, ends)}
 
 
 def replace(page, mark, text):
-    """The table between these marks, of the same kind of processor, or a new one; all of them by one that names none."""
+    """The table between these marks, of the same processor and vectors, or a new one; all of them by one that names none."""
     pattern = re.compile(rf"(<!-- {mark}:begin -->\n)(.*?)(<!-- {mark}:end -->)", re.S)
     found = pattern.search(page)
     if not found:
         sys.exit(f"report: the page has no marks for '{mark}'")
     parts = parts_of(found[2]) | parts_of(text)
-    joined = "\n\n".join(parts[name] for name in sorted(parts, key=ORDER.index)) if parts_of(text) else text
+    joined = "\n\n".join(parts[name] for name in sorted(parts, key=lambda name: (ORDER.index(name[0]), name[1]))) if parts_of(text) else text
     return page[:found.start()] + found[1] + joined + "\n" + found[3] + page[found.end():]
 
 
@@ -229,9 +229,10 @@ TABLES = [
 def self_test():
     avx2 = "A, AVX2, 2 processors, 2026-01-01, commit 01234567.\n\n| a |"
     wide = "B, AVX-512, 4 processors, 2026-01-02, commit 89abcdef.\n\n| b |"
-    narrowed = "C, AVX-512, ISOATLAS_SIMD=avx2, 4 processors, 2026-01-03, commit 89abcdef.\n\n| c |"
+    narrowed = "B, AVX-512, ISOATLAS_SIMD=avx2, 4 processors, 2026-01-03, commit 89abcdef.\n\n| c |"
+    again = avx2.replace("| a |", "| d |")
     page = "x\n<!-- t:begin -->\nZ, 3 pairs.\n\n| old |\n<!-- t:end -->\ny\n"
-    for text, parts in ((wide, [wide]), (avx2, [avx2, wide]), (narrowed, [narrowed, wide])):
+    for text, parts in ((wide, [wide]), (avx2, [avx2, wide]), (narrowed, [avx2, narrowed, wide]), (again, [again, narrowed, wide])):
         page = replace(page, "t", text)
         assert page == "x\n<!-- t:begin -->\n" + "\n\n".join(parts) + "\n<!-- t:end -->\ny\n", page
     assert replace(page, "t", "| c |") == "x\n<!-- t:begin -->\n| c |\n<!-- t:end -->\ny\n"  # table131.py

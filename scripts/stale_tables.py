@@ -2,7 +2,8 @@
 """Fails when code has changed much since its table in docs/performance.md was measured: stale_tables.py; stale_tables.py --self-test.
 
 A table is stale when more than MOST commits since its own touch the code that it measures. It must have a row for every kind of volume;
-that one kind of processor is missing is said alone. `make bench` measures all of them again."""
+that there is one processor alone is only said. `make bench` measures the tables of this processor again; stale ones of another are
+measured there, or deleted."""
 import pathlib
 import re
 import subprocess
@@ -28,7 +29,7 @@ TABLE = re.compile(r"<!-- ([\w-]+):begin -->\n(.*?)<!-- \1:end -->", re.S)
 
 
 def commits_of(page):
-    """{mark: the commits of its tables, one for each kind of processor}"""
+    """{mark: the commits of its tables, one for each processor}"""
     return {mark: re.findall(r"^\S.*, commit ([0-9a-f]{8,40})\.$", text, re.M) for mark, text in TABLE.findall(page) if mark in MEASURED}
 
 
@@ -85,9 +86,9 @@ def main():
     if any(newer(commit, []) is None for commits in found.values() for commit in commits):
         print("SKIPPED: this clone does not have the commits of the tables")
     if single := [mark for mark, commits in found.items() if len(commits) == 1]:
-        print(f"note: measured on one kind of processor: {', '.join(single)}")
+        print(f"note: measured on one processor: {', '.join(single)}")
     if said := problems(found, newer) + without_rows(page):
-        sys.exit("\n".join(said) + "\nNext: make bench, on a quiet machine.")
+        sys.exit("\n".join(said) + "\nNext: make bench, on a quiet machine; a table of another processor can be deleted.")
 
 
 main()
