@@ -36,7 +36,8 @@ C-contiguous arrays in host byte order of 8, 16 or 32 bit integers, float32 or f
 others are copied once. Arrays of a result are views of the memory that the computation has filled, and keep it alive. Long calls
 run without the interpreter's lock, stop at Ctrl-C with `KeyboardInterrupt`, and take `progress=` and `threads=`. `pandas`,
 `networkx`, `trimesh`, `pyvista`, `meshio` and `tqdm` are used where a method names them, and needed by nothing else.
-[Examples](../python/examples), [why it is so](decisions/0052-python.md).
+[Examples](../python/examples), [five tasks with pictures](python-gallery.md), [napari, ParaView, 3D Slicer](applications.md), [why it is
+so](decisions/0052-python.md).
 """
 GROUPS = [
     ("Opening and building", ["open", "build", "Atlas"]),
@@ -44,7 +45,7 @@ GROUPS = [
     ("All isovalues", ["Tree", "Handles", "Spectrum", "Columns"]),
     ("Functions of one call", ["marching_cubes", "label", "betti", "euler_number", "verify"]),
     ("Files and generated volumes", ["read", "write", "info", "phantom", "phantoms"]),
-    ("Pictures and notebooks", ["render", "View"]),
+    ("Pictures and notebooks", ["render", "save_image", "save_animation", "View"]),
     ("Exceptions", ["Error", "InputError", "NotFoundError", "ResourceError", "UnsupportedError", "VerificationError", "InternalError"]),
 ]
 

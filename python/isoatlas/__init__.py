@@ -25,14 +25,15 @@ __version__: str = _core.version
 
 __all__ = ["Atlas", "Check", "Columns", "Error", "Handles", "InputError", "InternalError", "Isovalue", "Mesh", "NotFoundError", "Object",
            "ResourceError", "Spectrum", "Table", "Tree", "UnsupportedError", "VerificationError", "View", "betti", "build", "euler_number",
-           "info", "label", "marching_cubes", "open", "phantom", "phantoms", "read", "read_mesh", "render", "save_meshes", "verify", "write"]
+           "info", "label", "marching_cubes", "open", "phantom", "phantoms", "read", "read_mesh", "render", "save_animation", "save_image",
+           "save_meshes", "verify", "write"]
 
 
 def __getattr__(name: str) -> Any:
     """What draws needs a module of its own, with Embree: it is loaded when it is first used."""
-    if name == "render":
-        from ._pictures import render
-        return render
+    if name in ("render", "save_animation", "save_image"):
+        from . import _pictures
+        return getattr(_pictures, name)
     if name == "View":
         from ._view import View
         return View

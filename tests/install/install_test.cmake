@@ -15,7 +15,7 @@ run("the installed command line" ${prefix}/${BINDIR}/isoatlas --version)
 require("it knows its version" output MATCHES "${VERSION}")
 
 foreach(file IN ITEMS man/man1/isoatlas.1 man/man1/isoatlas-extract.1 bash-completion/completions/isoatlas zsh/vendor-completions/_isoatlas
-  fish/vendor_completions.d/isoatlas.fish)
+  fish/vendor_completions.d/isoatlas.fish isoatlas/paraview/isoatlas_paraview.py isoatlas/slicer/Isoatlas.py)
   require("${file} is installed" EXISTS ${prefix}/share/${file})
 endforeach()
 

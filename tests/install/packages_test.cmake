@@ -21,7 +21,7 @@ run("unpack" dpkg-deb -x ${packages} ${WORK}/root)
 run("the packaged program" ${WORK}/root/usr/bin/isoatlas --version)
 require("it knows its version" output MATCHES "${VERSION}")
 foreach(file IN ITEMS man/man1/isoatlas.1 man/man1/isoatlas-view.1 bash-completion/completions/isoatlas zsh/vendor-completions/_isoatlas
-  fish/vendor_completions.d/isoatlas.fish)
+  fish/vendor_completions.d/isoatlas.fish isoatlas/paraview/isoatlas_paraview.py isoatlas/slicer/Isoatlas.py)
   file(GLOB found ${WORK}/root/usr/share/${file}*)
   require("${file} is in the package" found)
 endforeach()

@@ -13,6 +13,9 @@ import isoatlas
 from conftest import SOURCE
 
 EXAMPLES = sorted((SOURCE / "python" / "examples").glob("*.py"))
+DATA = SOURCE.parent / "shared" / "data"
+GALLERY = {"rock": "berea/berea.nrrd", "bones": "headsq/headsq.nrrd", "cells": "nuclei/nuclei.nrrd", "density": "emd3001/emd3001.nrrd",
+           "simulation": "heptane/heptane.nrrd"}
 ENVIRONMENT = dict(os.environ, PYTHONPATH=os.pathsep.join(sys.path))
 
 
@@ -31,6 +34,21 @@ def test_examples_run(example, tmp_path):
             pytest.skip(f"{package} is not installed")
     done = subprocess.run([sys.executable, example], cwd=tmp_path, capture_output=True, text=True, env=ENVIRONMENT)
     assert done.returncode == 0 and done.stdout, done.stderr
+
+
+@pytest.mark.parametrize("name", GALLERY)
+def test_tasks_of_the_gallery_run(name, tmp_path):
+    script = SOURCE / "python" / "gallery" / f"{name}.py"
+    assert len(script.read_text().splitlines()) <= 25
+    if not DATA.exists():
+        pytest.skip("../shared/data is not there")
+    words = [sys.executable, script, DATA / GALLERY[name], "picture.webp"]
+    done = subprocess.run(words, cwd=tmp_path, capture_output=True, text=True, env=ENVIRONMENT)
+    assert done.returncode == 0 and done.stdout, done.stderr
+    assert (tmp_path / "picture.webp").stat().st_size > 5000
+    page = (SOURCE / "docs" / "python-gallery.md").read_text()
+    assert f"```python\n{script.read_text()}```" in page and f"(images/python/{name}.webp)" in page
+    assert f"```\n{done.stdout}```" in page, done.stdout
 
 
 def test_docstrings_have_what_they_must():
@@ -54,5 +72,6 @@ def test_the_package_and_its_examples_are_typed():
     package = pathlib.Path(isoatlas.__file__).parent
     command = [sys.executable, "-m", "mypy", "--strict", "--ignore-missing-imports", "--cache-dir",
                os.environ.get("ISOATLAS_MYPY_CACHE", os.devnull)]
-    done = subprocess.run([*command, *EXAMPLES], capture_output=True, text=True, env=dict(ENVIRONMENT, MYPYPATH=str(package.parent)))
+    gallery = sorted((SOURCE / "python" / "gallery").glob("*.py"))
+    done = subprocess.run([*command, *EXAMPLES, *gallery], capture_output=True, text=True, env=dict(ENVIRONMENT, MYPYPATH=str(package.parent)))
     assert done.returncode == 0, done.stdout
