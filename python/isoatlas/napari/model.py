@@ -102,6 +102,10 @@ class Model:
             raise raised(InputError, "no image was searched yet", next="choose an image and press Find objects")
         return self.atlas
 
+    def or_all(self, chosen: Sequence[Object]) -> Sequence[Object]:
+        """What is chosen; nothing: all but the background."""
+        return chosen or [one for one in self.objects if not one.background]
+
     def show_surface(self, one: Object, tau: Optional[float] = None) -> Any:
         """The surface of an object as a layer; the layer that shows it already is changed. tau: default its best isovalue."""
         data, options, _ = layers.surface(one, one.best_tau if tau is None else tau, self._own().info, self._place)
@@ -115,7 +119,7 @@ class Model:
 
     def show_labels(self, chosen: Sequence[Object]) -> Any:
         """Objects as one layer of labels, each at its best isovalue."""
-        data, options, _ = layers.labels(self._own(), chosen or [one for one in self.objects if not one.background], self._place)
+        data, options, _ = layers.labels(self._own(), self.or_all(chosen), self._place)
         return self.viewer.add_labels(data, **options)
 
     def isovalues(self, one: Object) -> tuple[float, float]:

@@ -143,7 +143,7 @@ class ObjectsWidget(QWidget):  # type: ignore[misc, unused-ignore]
         self.isovalue.setText(f"{one.best_tau:g}")
 
     def show_surfaces(self) -> None:
-        for one in self.chosen() or [one for one in self.model.objects if not one.background]:
+        for one in self.model.or_all(self.chosen()):
             self.model.show_surface(one)
 
     def slide(self) -> None:
