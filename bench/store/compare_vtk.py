@@ -54,9 +54,14 @@ def steps_ratio(program, store, tau, arguments):
     return times_faster(result["step"], result["fresh"])
 
 
+def undecoded(own, threads):
+    """Seconds of a first query that only copies its samples: on all threads, and then the surface."""
+    return [again + copy / threads for again, copy in zip(own["again"], own["copy"])]
+
+
 def surface_record(program, store, volume, field, image, tau, arguments):
     active = field.active_cells(tau)
-    own = {"warm": [], "again": [], "cold": []}
+    own = {"warm": [], "again": [], "cold": [], "copy": []}
     vtk_warm, vtk_cold = [], []
     for _ in range(arguments.pairs):
         result = ours(program, "surface", store, tau, "--threads", arguments.threads, "--repeats", 3)
@@ -67,6 +72,7 @@ def surface_record(program, store, volume, field, image, tau, arguments):
     return {"volume": volume, "tau": round(tau, 5), "active cells": active, "active, %": field.percent(active),
             "warm, s": statistics.median(own["warm"]), "VTK in memory, s": statistics.median(vtk_warm),
             "times faster": times_faster(own["warm"], vtk_warm), "again, times faster": times_faster(own["again"], vtk_warm),
+            "undecoded, times faster": times_faster(undecoded(own, arguments.threads), vtk_warm),
             "cold, s": statistics.median(own["cold"]), "VTK from the file, s": statistics.median(vtk_cold),
             "cold, times faster": times_faster(own["cold"], vtk_cold), "cold disk MB": result["cold_disk_bytes"] / 1e6,
             "steps, times faster than fresh": steps_ratio(program, store, tau, arguments),

@@ -9,6 +9,8 @@
 // Each prints one JSON document. --analysis: in turns with an analysis of the volume in memory. Seconds are those of every repeat:
 //   open   opening the store, the file's pages in memory     warm   the query of an open store that holds no bricks
 //   again  the same query once more                          cold   opening and first query, the file's pages dropped before
+//   copy   as many samples as that query needs, uncoded, from pages of the store that the system holds into new memory, on one thread:
+//          what is left of reading if decoding and checking cost nothing
 //   step   from the isovalue before to this one              fresh  the query at this one of a store that holds no bricks
 // compare_vtk.py runs all this beside VTK's Flying Edges on the same volume.
 #include <isoatlas/isoatlas.h>
@@ -72,7 +74,10 @@ ordered_json measure_warm(const Arguments& arguments, const isoatlas::SurfaceOpt
     const auto extract = [&](const Atlas& atlas) { surface = atlas.extract(arguments.tau(), options, arguments.context); };
     for (int i = 0; i < arguments.repeats; ++i) result["open"].push_back(seconds_of([&] { const Atlas atlas(arguments.word(1)); }));
     const Atlas atlas(arguments.word(1));
-    extract(atlas);  // what a store reads once
+    isoatlas::QueryCost needed;
+    surface = atlas.extract(arguments.tau(), options, arguments.context, &needed);  // with what a store reads once
+    const std::int64_t raw = needed.cells_visited * static_cast<std::int64_t>(isoatlas::size_of(atlas.info().type));
+    for (int i = 0; i < arguments.repeats; ++i) result["copy"].push_back(seconds_of([&] { copy_to_new_memory(arguments.word(1), raw); }));
     for (int i = 0; i < arguments.repeats; ++i) {
         surface = {};
         atlas.clear_cache();
