@@ -123,6 +123,10 @@ def render_misses(record, column):
     return column.endswith("times faster") and record[column] < 1 or column in ("flat, s", "shaded, s") and record[column] > 1
 
 
+def python_misses(record, column):
+    return column == "Python / C++" and record[column] > 1.05
+
+
 def page_misses(record, column):
     """Does it take longer than it may?"""
     goals = {"five pictures, s": 2, "all, s": 8} if record["volume"] == "headsq" else {"five pictures, s": 5, "all, s": 15}
@@ -221,6 +225,8 @@ TABLES = [
     ("store-objects", "store", lambda document: generic_table(document["objects"])),
     ("render", "render", lambda document: generic_table(document["pictures"], render_misses)),
     ("pages", "pages", lambda document: generic_table(document["pages"], page_misses)),
+    ("python-surfaces", "python", lambda document: generic_table(document["surfaces"], python_misses)),
+    ("python-facts", "python", lambda document: generic_table(document["facts"])),
     ("methods", "methods", methods_table),
     ("methods-surfaces", "methods-surfaces", surfaces_table),
 ] + [(f"scale-{section}", f"scale-{section}", scale_table) for section in ("analysis", "extract", "stores", "render", "pages")]

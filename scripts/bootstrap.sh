@@ -50,6 +50,8 @@ test|python3-mypy|types of the Python package
 test|python3-qtpy|the dock widget of the Python package
 test|python3-pyqt5|the same
 test|python3-yaml|its manifest
+test|python3-nbclient|the notebook of the Python package
+test|python3-ipykernel|the same
 test|python3-nibabel|independent reader of the NIfTI files we write
 test|python3-tifffile|independent reader of the TIFF files we write
 test|chromium|opens the page

@@ -24,7 +24,7 @@ import isoatlas
 atlas = isoatlas.open("scan.nii.gz")          # a file, a store, an array with spacing=
 atlas.objects                                 # the table, with the isovalue that shows each best
 mesh = atlas.objects[3].surface()             # closed; points, triangles and normals are arrays
-mesh.to_trimesh().export("tooth.stl")
+mesh.save("tooth.stl")                        # or .to_trimesh(), .to_pyvista(), .to_meshio()
 labels = atlas.labels(keep=24)                # each object at its own best isovalue, in one label array
 graph = atlas.tree.to_networkx()
 pairs = atlas.persistence(dimension=0)
@@ -42,8 +42,8 @@ so](decisions/0052-python.md).
 GROUPS = [
     ("Opening and building", ["open", "build", "Atlas"]),
     ("Objects and surfaces", ["Table", "Object", "Isovalue", "Mesh", "Check", "read_mesh", "save_meshes"]),
-    ("All isovalues", ["Tree", "Handles", "Spectrum", "Columns"]),
-    ("Functions of one call", ["marching_cubes", "label", "betti", "euler_number", "verify"]),
+    ("All isovalues", ["Tree", "SimplifiedTree", "Handles", "Spectrum", "Columns"]),
+    ("Functions of one call", ["marching_cubes", "label", "betti", "euler_number", "label_regions", "label_surface", "verify"]),
     ("Files and generated volumes", ["read", "write", "info", "phantom", "phantoms"]),
     ("Pictures and notebooks", ["render", "save_image", "save_animation", "View"]),
     ("Exceptions", ["Error", "InputError", "NotFoundError", "ResourceError", "UnsupportedError", "VerificationError", "InternalError"]),

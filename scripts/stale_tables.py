@@ -19,12 +19,13 @@ MEASURED = {
     "engine": ENGINE, "phases": ENGINE, "scale-analysis": ENGINE, "extract": SURFACES, "scale-extract": SURFACES,
     "store-builds": STORES + ENGINE + ["src/features"], "store-surfaces": STORES, "store-objects": STORES, "scale-stores": STORES + ENGINE + ["src/features"],
     "render": PICTURES, "scale-render": PICTURES, "pages": PAGES, "scale-pages": PAGES,
+    "python-surfaces": ["python"], "python-facts": ["python"],
     "methods": ["src/methods/search", "src/methods/disk"],
 }
 ROWS = {  # of the tables that list volumes
     "smooth": "smooth-", "noisy": "noisy-", "white": "white-", "CT": "bonsai", "MR": "seg3d_mr", "EM": "emd3001", "labels": "frog_labels",
 }
-LISTS = "engine phases extract store-builds store-surfaces store-objects render pages".split()
+LISTS = "engine phases extract store-builds store-surfaces store-objects render pages python-surfaces".split()
 TABLE = re.compile(r"<!-- ([\w-]+):begin -->\n(.*?)<!-- \1:end -->", re.S)
 
 

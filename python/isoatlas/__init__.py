@@ -14,18 +14,19 @@ from typing import Any
 
 from . import _core
 from ._atlas import Atlas
-from ._functions import betti, euler_number, info, label, marching_cubes, phantom, phantoms, read, save_meshes, verify, write
+from ._functions import (betti, euler_number, info, label, label_regions, label_surface, marching_cubes, phantom, phantoms, read,
+                         save_meshes, verify, write)
 from ._mesh import Check, Mesh, read_mesh
 from ._objects import Isovalue, Object, Table
 from ._open import build, open
-from ._tree import Columns, Handles, Spectrum, Tree
+from ._tree import Columns, Handles, SimplifiedTree, Spectrum, Tree
 from .errors import Error, InputError, InternalError, NotFoundError, ResourceError, UnsupportedError, VerificationError
 
 __version__: str = _core.version
 
 __all__ = ["Atlas", "Check", "Columns", "Error", "Handles", "InputError", "InternalError", "Isovalue", "Mesh", "NotFoundError", "Object",
-           "ResourceError", "Spectrum", "Table", "Tree", "UnsupportedError", "VerificationError", "View", "betti", "build", "euler_number",
-           "info", "label", "marching_cubes", "open", "phantom", "phantoms", "read", "read_mesh", "render", "save_animation", "save_image",
+           "ResourceError", "SimplifiedTree", "Spectrum", "Table", "Tree", "UnsupportedError", "VerificationError", "View", "betti", "build",
+           "euler_number", "info", "label", "label_regions", "label_surface", "marching_cubes", "open", "phantom", "phantoms", "read", "read_mesh", "render", "save_animation", "save_image",
            "save_meshes", "verify", "write"]
 
 

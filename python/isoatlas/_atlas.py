@@ -7,12 +7,12 @@ from typing import TYPE_CHECKING, Any, Mapping, Optional, Sequence, Union
 
 import numpy as np
 
-from . import _arrays, _core, _html
+from . import _arrays, _core, _html, _names
 from ._calls import Progress, call
 from ._mesh import Array, Check, Mesh, Path, checked
 from ._objects import Object, Table
 from ._tree import Handles, Spectrum, Tree
-from .errors import InputError, NotFoundError, UnsupportedError, raised
+from .errors import InputError, NotFoundError, raised
 
 if TYPE_CHECKING:
     from ._view import View
@@ -164,16 +164,22 @@ class Atlas:
         keep, top_percent, min_voxels, min_measure, min_persistence, min_hypervolume
             A selection instead of the noise gate, as the options of ``isoatlas objects``; all conditions must hold.
         """
-        slope = abs(self.info["slope"])
-        given = {"keep": keep, "top_percent": top_percent, "min_voxels": min_voxels, "min_measure": min_measure,
-                 "min_persistence": min_persistence / slope, "min_hypervolume": min_hypervolume / slope}
-        selection = {name: value for name, value in given.items() if value} or None
+        selection = self._selection(keep, top_percent, min_voxels, min_measure, min_persistence, min_hypervolume) or None
         if top is None:
             top = 0 if all or selection else ROWS
         return Table(self, _core.objects(self._source, top, not all, selection, call(progress, threads)))
 
+    def _selection(self, keep: Optional[int], top_percent: Optional[float], min_voxels: float, min_measure: float, min_persistence: float,
+                   min_hypervolume: float) -> dict[str, Any]:
+        """What is given, in stored values."""
+        slope = abs(self.info["slope"])
+        given = {"keep": keep, "top_percent": top_percent, "min_voxels": min_voxels, "min_measure": min_measure,
+                 "min_persistence": min_persistence / slope, "min_hypervolume": min_hypervolume / slope}
+        return {name: value for name, value in given.items() if value}
+
     def object(self, reference: Reference) -> Object:
-        """An object by its number from 1, or as the command line calls it: ``3``, ``"3"``, ``"c2"`` (a cavity), ``"v81275"`` (by id).
+        """An object by its number from 1, or as the command line calls it: ``3``, ``"3"``, ``"c2"`` (a cavity), ``"v81275"`` (by id), or
+        by its name.
 
         Raises
         ------
@@ -184,8 +190,7 @@ class Atlas:
             return reference
         found = re.fullmatch(r"([cv]?)([0-9]+)", str(reference))
         if not found:
-            raise raised(InputError, f"an object cannot be {reference!r}", expected="a number, 'c' and that of a cavity, or 'v' and an id",
-                         next="atlas.objects lists them")
+            return _names.named(self, str(reference))
         is_cavity, number = found[1] == "c", int(found[2])
         table = self._numbered(is_cavity)
         for one in table:
@@ -194,6 +199,24 @@ class Atlas:
         what = "cavity" if is_cavity else "object"
         raise raised(NotFoundError, f"there is no {what} {reference}", expected=f"1 to {len(table)}" if len(table) else "the table is empty",
                      next="atlas.cavities lists them" if is_cavity else "atlas.objects lists them")
+
+    @property
+    def names(self) -> dict[str, str]:
+        """Names of objects and cavities, as ``isoatlas name`` lists them, and what each is the name of: "3", "c2"; "v81275" where the table
+        does not list it at the isovalue that it was named at. They lie beside the store; an atlas in memory has none."""
+        return {one.name: one.reference for one in _names.names_of(self)}
+
+    def give_name(self, reference: Reference, name: Optional[str]) -> None:
+        """Names an object of a store, at its best isovalue, as ``isoatlas name``; None takes its name away.
+
+        Raises
+        ------
+        UnsupportedError
+            The atlas is in memory.
+        InputError
+            Another object has this name, or it is no name: docs/cli.md, "References to objects".
+        """
+        _names.give_name(self, self.object(reference), name)
 
     def _numbered(self, is_cavity: bool) -> Table:
         if is_cavity not in self._known:
@@ -323,8 +346,9 @@ class Atlas:
 
         Parameters
         ----------
-        dimension : {0, 1}
-            0: objects, by the elder rule; the one that never merges has death -inf. 1: tunnels, as ``isoatlas handles --exact``.
+        dimension : {0, 1, 2}
+            0: objects, by the elder rule; the one that never merges has death -inf. 1: tunnels, as ``isoatlas handles --exact``; of 2D
+            volumes holes. 2: cavities, from where they close to where they are filled: their lowest sample.
         min_persistence : float
             Pairs of less are left out.
 
@@ -335,12 +359,16 @@ class Atlas:
         """
         if dimension == 0:
             pairs = _core.object_pairs(self._source, call(progress, threads))
+        elif dimension == self.ndim - 1:
+            pairs = _core.cavity_pairs(self._source, call(progress, threads))
+        elif dimension == 2:
+            pairs = np.empty((0, 2))
         elif dimension == 1:
             stored = min_persistence / abs(self.info["slope"])
             pairs = _core.handles(self._source, True, stored, -1, call(progress, threads))["pairs"]
         else:
-            raise raised(UnsupportedError, f"persistence of dimension {dimension}", expected="0 (objects) or 1 (tunnels)",
-                         next="atlas.cavities lists cavities with the isovalues at which they appear and merge")
+            raise raised(InputError, f"persistence of dimension {dimension}", expected="0 (objects), 1 (tunnels) or 2 (cavities)",
+                         next="correct it")
         kept: Array = pairs[np.abs(pairs[:, 0] - pairs[:, 1]) >= min_persistence]
         return kept
 

@@ -12,6 +12,7 @@ from ._atlas import Atlas
 from ._calls import Progress, call
 from ._mesh import Array, Check, Mesh, Path, read_mesh
 from ._open import open, reading_options
+from ._tree import Columns
 from .errors import InputError, UnsupportedError, raised
 
 
@@ -216,6 +217,51 @@ def write(path: Path, array: Any, *, spacing: Spacing = None, origin: Any = None
     _arrays.volume_of(array, spacing, origin, direction, unit, value_unit, space).write(os.fspath(path))
 
 
+def _labels_of(labels: Any, spacing: Spacing) -> _core.Volume:
+    if _arrays.is_path(labels):
+        return _core.read_volume(os.fspath(labels), reading_options(spacing=spacing), None, None, call())
+    return _arrays.volume_of(labels, spacing, None, None, None, "", None)
+
+
+def label_regions(labels: Any, *, spacing: Spacing = None, interpolant: str = "trilinear", progress: Progress = None,
+                  threads: int = 0) -> Columns:
+    """What each label of a label volume is, as ``isoatlas objects`` lists them: 0 is background.
+
+    Parameters
+    ----------
+    labels : array (z, y, x) or path
+        Whole numbers of at least 0.
+    spacing : sequence of float, optional
+        Of the samples along the array's axes.
+
+    Returns
+    -------
+    Columns
+        ``label``, ``voxels``, ``measure`` (volume; 2D: area), ``components``, ``tunnels``, ``cavities`` (n,); ``box_low``, ``box_high``
+        (n, 3): inclusive bounds in voxels, ``position`` (n, 3): mean in physical units, all (x, y, z).
+    """
+    return Columns(_core.label_regions(_labels_of(labels, spacing), interpolant, call(progress, threads)))
+
+
+def label_surface(labels: Any, label: int, *, spacing: Spacing = None, interpolant: str = "trilinear", boundary: str = "closed",
+                  normals: bool = True, progress: Progress = None, threads: int = 0) -> Mesh:
+    """The surface around one label of a label volume, half-way to its neighbours: a closed mesh, points (x, y, z).
+
+    Parameters
+    ----------
+    labels, spacing
+        As :func:`label_regions`.
+    boundary, normals
+        As :meth:`Atlas.surface`.
+
+    Raises
+    ------
+    NotFoundError
+        No sample has this label.
+    """
+    return Mesh(_core.label_surface(_labels_of(labels, spacing), int(label), interpolant, boundary, normals, call(progress, threads)))
+
+
 def verify(what: Any, *, strict: bool = True, **options: Any) -> tuple[Check, ...]:
     """Checks the guarantees of a mesh (a file or a Mesh), a volume or a store, as ``isoatlas verify``.
 
@@ -241,5 +287,5 @@ def save_meshes(path: Path, meshes: Any, *, names: Any = None, colours: Any = No
     return _core.write_surfaces(os.fspath(path), parts, space)
 
 
-__all__ = ["betti", "euler_number", "info", "label", "marching_cubes", "phantom", "phantoms", "read", "save_meshes", "verify",
+__all__ = ["betti", "euler_number", "info", "label", "label_regions", "label_surface", "marching_cubes", "phantom", "phantoms", "read", "save_meshes", "verify",
            "write"]

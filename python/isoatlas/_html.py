@@ -60,7 +60,8 @@ def table(objects: Sequence[Object], atlas: Atlas, pictures: int = PICTURES) -> 
     rows = []
     for i, one in enumerate(objects):
         note = html.escape(", ".join(filter(None, (one.why or one.reason, one.note))))
-        cells = [_picture(one, atlas) if i < pictures else "", one.reference, f"{one.best_tau:g}", _range_bar(one, low, high),
+        title = html.escape(" ".join(filter(None, (one.reference, one.name))))
+        cells = [_picture(one, atlas) if i < pictures else "", title, f"{one.best_tau:g}", _range_bar(one, low, high),
                  f"{one.voxels:,}", f"{one.measure:,.4g}", str(one.tunnels or "-"), str(one.cavities or "-"), note]
         rows.append("<tr>" + "".join(f"<td>{cell}</td>" for cell in cells) + "</tr>")
     head = "".join(f"<th>{cell}</th>" for cell in heads)

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple, Optional, Union, overload
 
 import numpy as np
 
-from . import _html
+from . import _html, _names
 from ._calls import Progress
 from ._mesh import Array, Mesh
 
@@ -85,6 +85,11 @@ class Object:
         self.outline: bool = row.get("outline", False)
         self.background: bool = row.get("background", False)
         self.note: str = row["note"]
+
+    @property
+    def name(self) -> Optional[str]:
+        """The name that it was given in a store: see :meth:`Atlas.give_name`."""
+        return _names.name_of(self)
 
     @property
     def reference(self) -> str:

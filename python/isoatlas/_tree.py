@@ -2,7 +2,7 @@
 from __future__ import annotations
 
 import os
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Optional
 
 import numpy as np
 
@@ -88,14 +88,9 @@ class Tree(Columns):
 
     def to_networkx(self) -> Any:
         """A ``networkx.DiGraph``: a node for each event with its values, an edge from each to its parent; needs the package networkx."""
-        import networkx
-        graph = networkx.DiGraph()
         columns = {name: array.tolist() for name, array in self._arrays.items() if name != "kind"}
         columns["kind"] = [self.kinds[kind] for kind in self.kind]
-        names = list(columns)
-        graph.add_nodes_from((i, dict(zip(names, row))) for i, row in enumerate(zip(*columns.values())))
-        graph.add_edges_from((i, parent) for i, parent in enumerate(self.parent.tolist()) if parent >= 0)
-        return graph
+        return _graph(columns, self.parent)
 
     def contours(self) -> Columns:
         """The contour tree: ``upper`` and ``lower`` critical element, ``tau_high``, ``tau_low`` and ``genus`` of each arc."""
@@ -104,6 +99,76 @@ class Tree(Columns):
     def save(self, path: Path, *, detail: str = "events", all: bool = False) -> None:
         """Writes .json, .graphml, .csv or .vtu, as ``isoatlas tree``; detail: events, levels, elements, contours."""
         _core.write_tree(self._atlas._source, os.fspath(path), detail, all, call())
+
+
+    def simplify(self, *, keep: Optional[int] = None, top_percent: Optional[float] = None, min_voxels: float = 0.0,
+                 min_measure: float = 0.0, min_persistence: float = 0.0, min_hypervolume: float = 0.0, progress: Progress = None,
+                 threads: int = 0) -> SimplifiedTree:
+        """The tree of the objects that a selection keeps, as ``isoatlas tree`` with these options; all conditions must hold."""
+        selection = self._atlas._selection(keep, top_percent, min_voxels, min_measure, min_persistence, min_hypervolume)
+        return SimplifiedTree(self._atlas, selection, progress, threads)
+
+
+class SimplifiedTree(Columns):
+    """The tree of some objects: zones of the others have joined that of the object into which they merge.
+
+    An element of each array for each node, in descending values; children come before their parent.
+
+    Attributes
+    ----------
+    event : (n,) int64
+        Index into the full tree.
+    parent : (n,) int64
+        -1: the root, the last one.
+    object : (n,) int64
+        Id of the object that the node lies on.
+    is_maximum : (n,) bool
+        It begins; else others end in it.
+    tau_low, tau_high : (n,) float64
+        Its zone: isovalues in (tau_low, tau_high].
+    zone_voxels, object_voxels : (n,) int64
+        Of the zone, those of bypassed ones included, and of the object at its low end.
+    node_of_event : (events,) int64
+        The node whose zone that of each event of the full tree has joined.
+    kept, hidden, hidden_voxels : int
+        Objects of the selection, the other ones, and how many voxels lie in these.
+    """
+
+    def __init__(self, atlas: Atlas, selection: dict[str, Any], progress: Progress = None, threads: int = 0) -> None:
+        arrays, node_of_event, kept, hidden, hidden_voxels = _core.simplified(atlas._source, selection, call(progress, threads))
+        arrays["is_maximum"] = arrays["is_maximum"].astype(bool)
+        super().__init__(arrays)
+        self._atlas, self._selection = atlas, selection
+        self.node_of_event: Array = node_of_event
+        self.kept, self.hidden, self.hidden_voxels = kept, hidden, hidden_voxels
+
+    def __len__(self) -> int:
+        return len(self.event)
+
+    def __repr__(self) -> str:
+        return f"<isoatlas.SimplifiedTree: {len(self):,} nodes of {self.kept:,} objects, {self.hidden:,} hidden>"
+
+    def to_networkx(self) -> Any:
+        """As :meth:`Tree.to_networkx`."""
+        return _graph({name: array.tolist() for name, array in self._arrays.items()}, self.parent)
+
+    def zones(self, *, progress: Progress = None, threads: int = 0) -> Array:
+        """The node of every voxel, plus 1: (z, y, x) uint32, as ``isoatlas label --zones`` with a selection."""
+        zones = self._atlas.zones(progress=progress, threads=threads)
+        return (self.node_of_event + 1).astype(np.uint32)[zones - 1]
+
+    def save(self, path: Path) -> None:
+        """Writes .json, .graphml, .csv or .vtu, as ``isoatlas tree`` with a selection."""
+        _core.write_simplified(self._atlas._source, self._selection, os.fspath(path), call())
+
+
+def _graph(columns: dict[str, list[Any]], parents: Array) -> Any:
+    import networkx
+    graph = networkx.DiGraph()
+    names = list(columns)
+    graph.add_nodes_from((i, dict(zip(names, row))) for i, row in enumerate(zip(*columns.values())))
+    graph.add_edges_from((i, parent) for i, parent in enumerate(parents.tolist()) if parent >= 0)
+    return graph
 
 
 class Handles(Columns):

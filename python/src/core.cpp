@@ -31,4 +31,6 @@ PYBIND11_MODULE(_core, module) {
     add_tables(module);
     add_trees(module);
     add_stores(module);
+    add_simplified(module);
+    add_names(module);
 }

@@ -12,5 +12,7 @@ void add_sources(pybind11::module_& module);
 void add_tables(pybind11::module_& module);
 void add_trees(pybind11::module_& module);
 void add_stores(pybind11::module_& module);
+void add_simplified(pybind11::module_& module);
+void add_names(pybind11::module_& module);
 
 }  // namespace isoatlas::python

@@ -5,7 +5,6 @@
 #include <isoatlas/cards.h>
 #include <isoatlas/cavities.h>
 #include <isoatlas/objects.h>
-#include <isoatlas/selection.h>
 
 #include "call.h"
 #include "core.h"
@@ -17,17 +16,9 @@ namespace py = pybind11;
 namespace isoatlas::python {
 namespace {
 
-/// top, gate, and a selection in stored values or None: keep, top_percent, min_voxels, min_measure, min_persistence, min_hypervolume.
 RankOptions rank_options(std::int64_t top, bool gate, const py::object& selection) {
     RankOptions options{.top = top, .gate = gate};
-    if (selection.is_none()) return options;
-    Selection& chosen = options.selection.emplace();
-    const py::dict given = selection;
-    const auto number = [&](const char* key) { return given.contains(key) ? given[key].cast<double>() : 0.0; };
-    if (given.contains("keep")) chosen.keep = given["keep"].cast<std::int64_t>();
-    if (given.contains("top_percent")) chosen.top_percent = given["top_percent"].cast<double>();
-    chosen.min_voxels = number("min_voxels"), chosen.min_measure = number("min_measure");
-    chosen.min_persistence = number("min_persistence"), chosen.min_hypervolume = number("min_hypervolume");
+    if (!selection.is_none()) options.selection = selection_of(selection);
     return options;
 }
 

@@ -119,15 +119,20 @@ py::array pairs_array(const std::vector<std::array<double, 2>>& pairs) {
     return moved_array(std::move(flat), {static_cast<py::ssize_t>(pairs.size()), 2});
 }
 
-py::array object_pairs(const std::shared_ptr<Source>& source, const CallOptions& call) {
+/// find: pair_objects or pair_cavities.
+template <class Pair>
+py::array pairs_of(const std::shared_ptr<Source>& source, std::vector<Pair> (*find)(const Analysis&), const CallOptions& call) {
     return pairs_array(long_call(call, [=](const Context& context) {
         std::vector<std::array<double, 2>> pairs;
         const Calibration& calibration = source->info().calibration;
-        for (const ObjectPair& pair : pair_objects(*source->trees(context)))
+        for (const Pair& pair : find(*source->trees(context)))
             pairs.push_back({calibration.reported(pair.born), calibration.reported(pair.dies)});
         return pairs;
     }));
 }
+
+py::array object_pairs(const std::shared_ptr<Source>& source, const CallOptions& call) { return pairs_of(source, pair_objects, call); }
+py::array cavity_pairs(const std::shared_ptr<Source>& source, const CallOptions& call) { return pairs_of(source, pair_cavities, call); }
 
 /// exact: reads the samples.
 std::vector<Handle> found(Source& source, bool exact, double min_persistence, std::int64_t voxel, const Context& context) {
@@ -227,6 +232,7 @@ void add_trees(py::module_& module) {
     module.def("tree", &tree_arrays, py::arg("source"), py::arg("call"));
     module.def("tree_kinds", &kinds);
     module.def("contours", &contour_arrays, py::arg("source"), py::arg("call"));
+    module.def("cavity_pairs", &cavity_pairs, py::arg("source"), py::arg("call"));
     module.def("object_pairs", &object_pairs, py::arg("source"), py::arg("call"));
     module.def("handles", &handles, py::arg("source"), py::arg("exact"), py::arg("min_persistence"), py::arg("voxel"), py::arg("call"));
     module.def("spectrum", &spectrum, py::arg("source"), py::arg("samples"), py::arg("call"));

@@ -140,4 +140,14 @@ MissingPolicy missing_of(const py::object& missing, const std::optional<double>&
     return policy;
 }
 
+Selection selection_of(const py::dict& given) {
+    Selection chosen;
+    const auto number = [&](const char* key) { return given.contains(key) ? given[key].cast<double>() : 0.0; };
+    if (given.contains("keep")) chosen.keep = given["keep"].cast<std::int64_t>();
+    if (given.contains("top_percent")) chosen.top_percent = given["top_percent"].cast<double>();
+    chosen.min_voxels = number("min_voxels"), chosen.min_measure = number("min_measure");
+    chosen.min_persistence = number("min_persistence"), chosen.min_hypervolume = number("min_hypervolume");
+    return chosen;
+}
+
 }  // namespace isoatlas::python

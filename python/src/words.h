@@ -10,6 +10,7 @@
 #include <pybind11/stl.h>
 
 #include <isoatlas/error.h>
+#include <isoatlas/selection.h>
 #include <isoatlas/surface.h>
 #include <isoatlas/volume.h>
 
@@ -43,5 +44,7 @@ Choice choice_of(std::string_view argument, std::string_view word, const std::ar
 [[nodiscard]] OpenOptions open_options_of(const pybind11::dict& options);
 /// missing: None, "below", "above" or a number; no_data: None or a number.
 [[nodiscard]] MissingPolicy missing_of(const pybind11::object& missing, const std::optional<double>& no_data);
+/// The members of Selection: stored values.
+[[nodiscard]] Selection selection_of(const pybind11::dict& given);
 
 }  // namespace isoatlas::python

@@ -164,6 +164,61 @@ def test_pictures_and_measures(cli, tmp_path):
     assert picture.shape == (60, 80, 4) and picture.dtype == np.uint8 and len(np.unique(picture)) > 10
 
 
+@pytest.mark.parametrize("extension", ["json", "graphml", "csv", "vtu"])
+def test_simplified_trees(both, cli, tmp_path, extension):
+    atlas, _ = both
+    cli("tree", "v.nrrd", "--keep", 4, "--min-voxels", 5, "-o", f"cli.{extension}")
+    simplified = atlas.tree.simplify(keep=4, min_voxels=5)
+    simplified.save(tmp_path / f"python.{extension}")
+    if extension == "json":  # they name their volumes
+        ours, theirs = (json.loads((tmp_path / f"{who}.json").read_text()) for who in ("python", "cli"))
+        assert ours["nodes"] == theirs["nodes"] != []
+    else:
+        assert same_files(tmp_path, f"cli.{extension}", f"python.{extension}")
+    cli("label", "v.nrrd", "--zones", "--keep", 4, "--min-voxels", 5, "-o", "zones.nrrd")
+    np.testing.assert_array_equal(isoatlas.read(tmp_path / "zones.nrrd")[0], simplified.zones())
+
+
+def test_names(cli, tmp_path):
+    isoatlas.build(VOLUMES["demo"](), tmp_path / "v.atlas")
+    atlas = isoatlas.open(tmp_path / "v.atlas")
+    assert atlas.names == {} and atlas.objects[0].name is None
+    cli("name", "v.atlas", 2, "the neck")
+    assert atlas.names == {"the neck": "2"} and atlas.object("the neck").number == 2 and atlas.objects[1].name == "the neck"
+    atlas.give_name("c1", "hollow")
+    atlas.give_name("the neck", None)
+    named = json.loads(cli("name", "v.atlas", "--json"))["names"]
+    assert [(one["name"], one["reference"]) for one in named] == [("hollow", "c1")] and atlas.object("hollow").is_cavity
+    assert "hollow" in atlas.cavities._repr_html_()
+    with pytest.raises(isoatlas.InputError, match="c1"):
+        atlas.give_name(1, "c1")  # a reference is no name
+    with pytest.raises(isoatlas.InputError, match="hollow"):
+        atlas.give_name(1, "hollow")  # another one has it
+    with pytest.raises(isoatlas.InputError, match="liver"):
+        atlas.object("liver")
+    with pytest.raises(isoatlas.UnsupportedError, match="memory"):
+        isoatlas.open(VOLUMES["demo"]()).give_name(1, "head")
+
+
+def test_labels_that_are_given(cli, tmp_path):
+    labels = isoatlas.open(VOLUMES["demo"]()).labels(keep=4).astype(np.uint8)
+    isoatlas.write(tmp_path / "l.nrrd", labels, spacing=(0.5, 0.5, 0.5), unit="mm")
+    lines = json.loads(cli("objects", "l.nrrd", "--labels", "yes", "--json"))["labels"]
+    regions = isoatlas.label_regions(labels, spacing=(0.5, 0.5, 0.5))
+    for name in ("label", "voxels", "measure", "components", "tunnels", "cavities"):
+        assert regions[name].tolist() == [line[name] for line in lines] != []
+    assert regions.position.tolist() == [line["position_physical"] for line in lines]
+    number = int(regions.label[-1])
+    cli("extract", "l.nrrd", "--labels", "yes", "--object", number, "-o", "cli.ply")
+    isoatlas.label_surface(tmp_path / "l.nrrd", number).save(tmp_path / "python.ply")
+    assert same_files(tmp_path, "cli.ply", "python.ply")
+    assert isoatlas.label_surface(labels, number, spacing=(0.5, 0.5, 0.5)).verify()
+    with pytest.raises(isoatlas.NotFoundError, match="200"):
+        isoatlas.label_surface(labels, 200)
+    with pytest.raises(isoatlas.InputError):
+        isoatlas.label_regions(labels - 0.5)
+
+
 def test_phantoms_and_conversions(cli, tmp_path):
     for name in ("torus-chain", "noise"):
         cli("phantom", name, "--size", 24, "-o", f"{name}.npy")

@@ -25,6 +25,16 @@ def test_the_reference_is_what_the_docstrings_say():
     assert done.returncode == 0, done.stderr
 
 
+def test_the_notebook_runs_and_prints_what_it_shows():
+    """The lines of README.md, executed."""
+    for package in ("nbclient", "ipykernel", "networkx"):
+        if importlib.util.find_spec(package) is None:
+            pytest.skip(f"{package} is not installed")
+    done = subprocess.run([sys.executable, SOURCE / "scripts" / "python_notebook.py", "--check"], capture_output=True, text=True,
+                          env=ENVIRONMENT)
+    assert done.returncode == 0, done.stderr
+
+
 @pytest.mark.parametrize("example", EXAMPLES, ids=lambda path: path.stem)
 def test_examples_run(example, tmp_path):
     assert len(example.read_text().splitlines()) <= 25

@@ -106,6 +106,30 @@ def test_tunnels_are_as_many_as_b1_at_every_isovalue():
     assert len(kept) == np.count_nonzero(pairs[:, 0] - pairs[:, 1] >= 3)
 
 
+@pytest.mark.parametrize("seed", range(3))
+@pytest.mark.parametrize("shape", [(7, 8, 9), (12, 13)])
+def test_cavities_are_as_many_as_the_last_betti_number_at_every_isovalue(seed, shape):
+    array = np.rint(30 * smooth(shape, seed, passes=1))
+    atlas = isoatlas.open(array)
+    pairs = atlas.persistence(atlas.ndim - 1)
+    assert len(pairs) > 2 and np.all(pairs[:, 0] > pairs[:, 1])
+    for level in np.unique(array):
+        assert np.count_nonzero((pairs[:, 1] < level) & (level <= pairs[:, 0])) == atlas.betti(level)[atlas.ndim - 1]
+    assert len(atlas.persistence(2)) == (len(pairs) if atlas.ndim == 3 else 0)
+    with pytest.raises(isoatlas.InputError, match="dimension 3"):
+        atlas.persistence(3)
+
+
+def test_a_simplified_tree_parts_the_volume():
+    atlas = isoatlas.open(smooth((12, 13, 14), 5, passes=1))
+    simplified = atlas.tree.simplify(keep=5)
+    assert simplified.kept == 5 and simplified.kept + simplified.hidden == atlas.find_objects(all=True).total
+    assert simplified.zone_voxels.sum() == atlas.volume.size and len(simplified.node_of_event) == len(atlas.tree)
+    counts = np.bincount(simplified.zones().ravel(), minlength=len(simplified) + 1)
+    assert counts[0] == 0 and np.array_equal(counts[1:], simplified.zone_voxels)
+    assert np.count_nonzero(simplified.is_maximum) == 5 and list(np.flatnonzero(simplified.parent < 0)) == [len(simplified) - 1]
+
+
 def test_the_tree_is_a_graph():
     networkx = pytest.importorskip("networkx", reason="python3-networkx is not installed")
     atlas = isoatlas.open(smooth((9, 10, 11), 2))
