@@ -55,6 +55,7 @@ def run(book):
         kernel.mkdir(parents=True)
         words = [sys.executable, "-m", "ipykernel_launcher", "-f", "{connection_file}"]
         (kernel / "kernel.json").write_text(json.dumps({"argv": words, "display_name": "Python 3", "language": "python"}))
+        os.environ["PYDEVD_DISABLE_FILE_VALIDATION"] = "1"
         os.environ["JUPYTER_PATH"] = os.environ["JUPYTER_DATA_DIR"] = folder
         NotebookClient(book, timeout=300, kernel_name="python3", record_timing=False, resources={"metadata": {"path": folder}}).execute()
     return book

@@ -4,7 +4,7 @@
     package.py BENCH_EXTRACT [--volumes smooth-256 ...] [--pairs 5] [--memmap smooth-512] [--loops 10000] [--cache FOLDER] [--data FOLDER]
                [--json FILE]
 
-A surface of the same samples in memory, at the same isovalue, by bench_extract and by Atlas.surface(), in turns, medians. The package is
+A surface of the same samples in memory, at the same isovalue, without ids, by bench_extract and by Atlas.surface(), in turns, medians. The package is
 that of the folder beside the program's (BUILD/python). Answers first: the same numbers of points and triangles.
 """
 import argparse
@@ -31,7 +31,7 @@ atlas = isoatlas.open(numpy.fromfile(path, dtype).reshape(shape))
 seconds = []
 for _ in range(repeats):
     start = time.perf_counter()
-    mesh = atlas.surface(tau)
+    mesh = atlas.surface(tau, ids=False)
     seconds.append(time.perf_counter() - start)
     points, triangles = len(mesh.points), len(mesh.triangles)
     del mesh

@@ -33,9 +33,8 @@ class Atlas:
         self._open_source: Optional[_core.Source] = source
         self._recipe = recipe
         self._folder = folder  # of a temporary store
-        self._objects: Optional[Table] = None
-        self._cavities: Optional[Table] = None
-        self._known: dict[bool, Table] = {}
+        # Rows and not tables, which refer to the atlas: it is freed with its last reference, without waiting for a collection.
+        self._found: dict[tuple[bool, int], dict[str, Any]] = {}
 
     @property
     def _source(self) -> _core.Source:
@@ -45,8 +44,8 @@ class Atlas:
 
     def close(self) -> None:
         """Frees the volume and its trees, and removes a temporary store. Meshes and labels live on."""
-        self._open_source = self._objects = self._cavities = None
-        self._known = {}
+        self._open_source = None
+        self._found = {}
         if self._folder is not None:
             self._folder.cleanup()
             self._folder = None
@@ -139,16 +138,19 @@ class Atlas:
     @property
     def objects(self) -> Table:
         """The table of objects: those that noise does not explain, at most 24 lines, by rank."""
-        if self._objects is None:
-            self._objects = self.find_objects()
-        return self._objects
+        return self._table(False, ROWS)
 
     @property
     def cavities(self) -> Table:
         """The table of cavities: enclosed regions of low values, at most 24 lines, by rank."""
-        if self._cavities is None:
-            self._cavities = Table(self, _core.cavities(self._source, ROWS, True, None, call()), True)
-        return self._cavities
+        return self._table(True, ROWS)
+
+    def _table(self, is_cavity: bool, top: int) -> Table:
+        """Of those that noise does not explain."""
+        source, key = self._source, (is_cavity, top)
+        if key not in self._found:
+            self._found[key] = (_core.cavities if is_cavity else _core.objects)(source, top, True, None, call())
+        return Table(self, self._found[key], is_cavity)
 
     def find_objects(self, top: Optional[int] = None, *, all: bool = False, keep: Optional[int] = None, top_percent: Optional[float] = None,
                      min_voxels: float = 0.0, min_measure: float = 0.0, min_persistence: float = 0.0, min_hypervolume: float = 0.0,
@@ -219,10 +221,7 @@ class Atlas:
         _names.give_name(self, self.object(reference), name)
 
     def _numbered(self, is_cavity: bool) -> Table:
-        if is_cavity not in self._known:
-            find = _core.cavities if is_cavity else _core.objects
-            self._known[is_cavity] = Table(self, find(self._source, KNOWN, True, None, call()), is_cavity)
-        return self._known[is_cavity]
+        return self._table(is_cavity, KNOWN)
 
     def _first(self, count: int) -> list[Object]:
         """The first lines that show more than background, if there are any."""
@@ -232,7 +231,8 @@ class Atlas:
     # One isovalue.
 
     def surface(self, tau: float, *, objects: Sequence[int] = (), contours: Sequence[int] = (), boundary: str = "closed",
-                style: str = "compact", shell: str = "all", normals: bool = True, progress: Progress = None, threads: int = 0) -> Mesh:
+                style: str = "compact", shell: str = "all", normals: bool = True, ids: bool = True, progress: Progress = None,
+                threads: int = 0) -> Mesh:
         """The surface at an isovalue, a closed mesh with points (x, y, z); of 2D volumes closed curves.
 
         Parameters
@@ -250,6 +250,8 @@ class Atlas:
         shell : {"all", "outer", "inner"}
             inner: walls of cavities.
         normals : bool
+        ids : bool
+            False: without ``object_ids`` and ``contour_ids``, in about half the time.
 
         Raises
         ------
@@ -257,12 +259,12 @@ class Atlas:
             tau is outside the range of the samples, or there is no such object or contour.
         """
         return self._extract(self._source.stored(float(tau)), objects=objects, contours=contours, boundary=boundary, style=style, shell=shell,
-                             normals=normals, progress=progress, threads=threads)
+                             normals=normals, ids=ids, progress=progress, threads=threads)
 
     def _extract(self, tau: float, *, objects: Sequence[int] = (), contours: Sequence[int] = (), boundary: str, style: str, shell: str,
-                 normals: bool, progress: Progress, threads: int) -> Mesh:
-        ids = [[int(i) for i in given] for given in (objects, contours)]
-        return Mesh(self._source.extract(tau, ids[0], ids[1], (boundary, style, shell), normals, call(progress, threads)))
+                 normals: bool, ids: bool = True, progress: Progress, threads: int) -> Mesh:
+        chosen = [[int(i) for i in given] for given in (objects, contours)]
+        return Mesh(self._source.extract(tau, chosen[0], chosen[1], (boundary, style, shell), normals, ids, call(progress, threads)))
 
     def objects_at(self, tau: float, *, progress: Progress = None, threads: int = 0) -> list[dict[str, Any]]:
         """Every object at an isovalue, the largest first: ``id``, ``voxels``, ``measure``, ``chi``, ``tunnels``, ``cavities``, ``box``

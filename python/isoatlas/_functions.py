@@ -138,7 +138,7 @@ def marching_cubes(volume: Any, level: Optional[float] = None, *, spacing: Spaci
     array = array[::step_size, ::step_size, ::step_size]
     steps = np.array((_arrays.spacing_of(spacing, 3) or [1.0, 1.0, 1.0])[::-1]) * step_size
     atlas = open(array, spacing=tuple(steps), interpolant=interpolant)
-    mesh = atlas.surface(level, boundary=boundary, progress=progress, threads=threads)
+    mesh = atlas.surface(level, boundary=boundary, ids=False, progress=progress, threads=threads)
     points, triangles = np.ascontiguousarray(mesh.points[:, ::-1]), mesh.triangles
     normals = np.ascontiguousarray(mesh.normals[:, ::-1])
     # With the axes the other way round the triangles are, too: that is how scikit-image has them in "descent".

@@ -29,12 +29,9 @@ def names_of(atlas: Atlas) -> list[Named]:
     """All names; of an atlas in memory there are none."""
     if not atlas.is_store:
         return []
-    return [Named(name, voxel, isovalue, is_cavity, _line(atlas, voxel, isovalue, is_cavity))
-            for name, voxel, isovalue, is_cavity in _core.names(atlas._source)]
-
-
-def _line(atlas: Atlas, voxel: int, isovalue: float, is_cavity: bool) -> Optional[Object]:
-    return next((one for one in atlas._numbered(is_cavity) if (one.id, one.best_tau) == (voxel, isovalue)), None)
+    given = _core.names(atlas._source)
+    lines = {(one.id, one.best_tau, is_cavity): one for is_cavity in {name[3] for name in given} for one in atlas._numbered(is_cavity)}
+    return [Named(name, voxel, isovalue, is_cavity, lines.get((voxel, isovalue, is_cavity))) for name, voxel, isovalue, is_cavity in given]
 
 
 def name_of(one: Object) -> Optional[str]:

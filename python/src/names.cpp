@@ -81,7 +81,8 @@ std::shared_ptr<Surface> label_surface(const std::shared_ptr<Volume>& volume, st
     ExtractOptions options{.interpolant = interpolant_of(interpolant)};
     options.surface.boundary = boundary_of(boundary);
     options.surface.normals = normals;
-    return long_call(call, [=](const Context& context) { return std::make_shared<Surface>(extract_label(*volume, label, options, context)); });
+    return long_call(call,
+                     [=](const Context& context) { return std::make_shared<Surface>(extract_label(*volume, label, options, context)); });
 }
 
 }  // namespace

@@ -36,11 +36,12 @@ std::shared_ptr<Source> of_store(const std::string& path, const std::optional<st
 }
 
 std::shared_ptr<Surface> extract(const std::shared_ptr<Source>& source, double tau, const Indices& objects, const Indices& contours,
-                                 const std::tuple<std::string, std::string, std::string>& words, bool normals, const CallOptions& call) {
+                                 const std::tuple<std::string, std::string, std::string>& words, bool normals, bool ids,
+                                 const CallOptions& call) {
     SurfaceOptions options;
     const auto& [boundary, style, shell] = words;
     options.boundary = boundary_of(boundary), options.style = style_of(style), options.shell = shell_of(shell);
-    options.objects = objects, options.contours = contours, options.normals = normals;
+    options.objects = objects, options.contours = contours, options.normals = normals, options.ids = ids;
     return long_call(call, [=](const Context& context) { return std::make_shared<Surface>(source->extract(tau, options, context)); });
 }
 
@@ -188,7 +189,7 @@ void add_sources(py::module_& module) {
                  return long_call(call, [=](const Context& context) { return std::const_pointer_cast<Volume>(source->volume(context)); });
              })
         .def("extract", &extract, py::arg("tau"), py::arg("objects"), py::arg("contours"), py::arg("words"), py::arg("normals"),
-             py::arg("call"))
+             py::arg("ids"), py::arg("call"))
         .def("cut", &cut_at, py::arg("tau"), py::arg("call"))
         .def("betti", &betti_at, py::arg("tau"), py::arg("call"))
         .def("labels", &labels_at, py::arg("tau"), py::arg("objects"), py::arg("call"))

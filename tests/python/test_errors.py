@@ -53,7 +53,7 @@ CALLS = {
     "boundary": (isoatlas.InputError, lambda: isoatlas.open(GOOD).surface(0.5, boundary="half")),
     "extension": (isoatlas.InputError, lambda: isoatlas.open(GOOD).surface(float(np.median(GOOD))).save("surface.xyz")),
     "no folder": (isoatlas.ResourceError, lambda: isoatlas.open(GOOD).surface(float(np.median(GOOD))).save("/nowhere/surface.ply")),
-    "dimension": (isoatlas.UnsupportedError, lambda: isoatlas.open(GOOD).persistence(2)),
+    "dimension": (isoatlas.InputError, lambda: isoatlas.open(GOOD).persistence(3)),
     "phantom": (isoatlas.InputError, lambda: isoatlas.phantom("nothing")),
     "mask": (isoatlas.UnsupportedError, lambda: isoatlas.marching_cubes(GOOD, mask=GOOD > 0)),
     "step": (isoatlas.InputError, lambda: isoatlas.marching_cubes(GOOD, step_size=0)),

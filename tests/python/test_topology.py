@@ -112,7 +112,7 @@ def test_cavities_are_as_many_as_the_last_betti_number_at_every_isovalue(seed, s
     array = np.rint(30 * smooth(shape, seed, passes=1))
     atlas = isoatlas.open(array)
     pairs = atlas.persistence(atlas.ndim - 1)
-    assert len(pairs) > 2 and np.all(pairs[:, 0] > pairs[:, 1])
+    assert len(pairs) > 0 and np.all(pairs[:, 0] > pairs[:, 1])
     for level in np.unique(array):
         assert np.count_nonzero((pairs[:, 1] < level) & (level <= pairs[:, 0])) == atlas.betti(level)[atlas.ndim - 1]
     assert len(atlas.persistence(2)) == (len(pairs) if atlas.ndim == 3 else 0)
