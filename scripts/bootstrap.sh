@@ -18,7 +18,7 @@ demo|libtbb-dev|threads
 demo|zlib1g-dev|compressed NRRD, NIfTI, MetaImage and VTK files
 demo|libtiff-dev|TIFF stacks
 demo|libpugixml-dev|VTK XML files
-demo|libhdf5-dev|stores
+demo|libhdf5-dev|stores, VTKHDF files
 demo|libxxhash-dev|checksums of stores
 demo|libdeflate-dev|compressed trees in stores, PNG files
 demo|libqhull-dev|convex hulls of objects, for their diameters
@@ -49,9 +49,10 @@ test|python3-meshio|meshes of the Python package
 test|python3-mypy|types of the Python package
 test|python3-qtpy|the dock widget of the Python package
 test|python3-pyqt5|the same
-test|python3-yaml|its manifest
+test|python3-yaml|its manifest, the conda recipe
 test|python3-nbclient|the notebook of the Python package
 test|python3-ipykernel|the same
+test|python3-venv|a virtual environment for its wheel
 test|python3-nibabel|independent reader of the NIfTI files we write
 test|python3-tifffile|independent reader of the TIFF files we write
 test|chromium|opens the page

@@ -29,6 +29,9 @@ struct ServerLink {
 /// to other users. The store need not be there. is_new: the secrets are replaced, earlier links do not open any more.
 [[nodiscard]] ServerLink link_of_store(const std::string& store, bool is_new = false);
 
+/// Throws Error{unsupported} when this isoatlas was built without its pages: a server then answers programs alone.
+void check_has_viewer();
+
 /// A scene that the viewer has saved: docs/scene.md.
 struct SceneFile {
     std::string path{}, text{};

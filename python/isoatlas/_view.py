@@ -29,10 +29,16 @@ class View:
     atlas : Atlas
     port : int
         0: any that is free.
+
+    Raises
+    ------
+    UnsupportedError
+        isoatlas was built where npm was missing, and has no page to show.
     """
 
     def __init__(self, atlas: Atlas, *, port: int = 0) -> None:
         from ._open import build
+        _serve.check_has_viewer()
         self._atlas = atlas
         self._folder: Optional[tempfile.TemporaryDirectory[str]] = None
         path = atlas.info["path"] if atlas.is_store else ""

@@ -86,6 +86,7 @@ _NEXT = {
     "output_read_only": "choose another name, or make the file writable",
     "build_folder_taken": "rename or remove it, or build to another file",
     "store_being_built": "wait until it is done, or build to another file",
+    "built_without_web": "install Node.js and npm, and build isoatlas again: its page is bundled with them",
     "bug": "please report it with what you called and, if you may share it, the volume",
 }
 

@@ -51,6 +51,7 @@ PYBIND11_MODULE(_serve, module) {
     py::module_::import("isoatlas._core");
     isoatlas::python::translate_exceptions();
     const auto released = py::call_guard<py::gil_scoped_release>();
+    module.def("check_has_viewer", &isoatlas::check_has_viewer);
     py::class_<Viewer>(module, "Viewer")
         .def(py::init<const std::string&, int, bool>(), py::arg("store"), py::arg("port"), py::arg("is_read_only"), released)
         .def("close", &Viewer::close, released)

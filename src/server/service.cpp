@@ -10,6 +10,7 @@
 #include "isoatlas/error.h"
 #include "isoatlas/isovalue.h"
 #include "isoatlas/output.h"
+#include "isoatlas/server.h"
 #include "page/template.h"
 #include "preview/wire_mesh.h"
 #include "server/answers.h"
@@ -102,12 +103,15 @@ Response Service::answer(const Request& request) {
     }
 }
 
+void check_has_viewer() {
+    if (!viewer_template().empty()) return;
+    throw Error(ErrorKind::unsupported,
+                {.what = "this isoatlas was built without pages", .next = "request /api/atlas", .reason = Reason::built_without_web});
+}
+
 Response Service::answer_known(const Request& request) {
     if (request.path == "/") {
-        if (viewer_template().empty())
-            throw Error(
-                ErrorKind::unsupported,
-                {.what = "this isoatlas was built without pages", .next = "request /api/atlas", .reason = Reason::built_without_web});
+        check_has_viewer();
         return {200, "text/html; charset=utf-8", std::string(viewer_template())};
     }
     if (!is_secret(request.token, token_)) {
@@ -298,7 +302,7 @@ Response Service::surface_answer(const Request& request) {
     options.contours = voxels(words, "contour", request);
     const std::optional<std::string> shell = words.choice("shell", {"outer", "inner"});
     if (shell) options.shell = *shell == "inner" ? ShellChoice::inner : ShellChoice::outer;
-    const std::optional<std::string> format = words.choice("format", {"ply", "stl", "obj", "vtp", "glb"});
+    const std::optional<std::string> format = words.choice("format", {"ply", "stl", "obj", "vtp", "glb", "vtkhdf"});
     const std::optional<std::int64_t> divisions = format ? std::nullopt : words.whole("points", 1, kMaxPointDivisions);
     options.ids = format.has_value();
     const std::int64_t max = words.whole("max", 1, kMaxTriangles).value_or(kMaxTriangles);

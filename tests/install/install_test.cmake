@@ -30,7 +30,7 @@ file(WRITE ${WORK}/lacking/CMakeLists.txt
   "cmake_minimum_required(VERSION 3.25)\nproject(lacking LANGUAGES CXX)\nfind_package(isoatlas REQUIRED COMPONENTS formats store render)\n")
 refuse("a consumer without the libraries" ${configure} -D CMAKE_PROJECT_INCLUDE=${CMAKE_CURRENT_LIST_DIR}/only_tbb.cmake -S ${WORK}/lacking
   -B ${WORK}/lacking/build)
-require("the refusal names what is missing" output MATCHES "isoatlas::formats needs ZLIB, TIFF, pugixml.*isoatlas::store needs")
+require("the refusal names what is missing" output MATCHES "isoatlas::formats needs ZLIB, TIFF, pugixml, hdf5.h.*isoatlas::store needs")
 require("and what to install, each package once" output MATCHES
   "apt-get install zlib1g-dev libtiff-dev libpugixml-dev libhdf5-dev libdeflate-dev libembree-dev libwebp-dev( |$)")
 
