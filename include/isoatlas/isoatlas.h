@@ -34,6 +34,7 @@
 #include "isoatlas/dump.h"
 #include "isoatlas/environment.h"
 #include "isoatlas/error.h"
+#include "isoatlas/evolution_file.h"
 #include "isoatlas/filter.h"
 #include "isoatlas/handles.h"
 #include "isoatlas/id.h"

@@ -24,7 +24,7 @@ public:
     /// The next bytes, behind all written so far.
     virtual void write(std::span<const std::byte> bytes) = 0;
     void write(std::string_view text) { write(std::as_bytes(std::span(text.data(), text.size()))); }
-    /// Writes anywhere: over what is there, e.g. a link to a later page, or behind it; a hole reads as zeros. Only TIFF needs it.
+    /// Writes anywhere: over what is there, e.g. a link to a later page, or behind it; a hole reads as zeros. Only TIFF and VTKHDF need it.
     virtual void write_at(std::int64_t offset, std::span<const std::byte> bytes) = 0;
     /// End of the bytes written so far: the offset of the next write().
     [[nodiscard]] virtual std::int64_t size() const = 0;

@@ -86,8 +86,8 @@ struct SurfaceReport {
 };
 [[nodiscard]] SurfaceReport inspect(std::span<const std::array<double, 3>> points, std::span<const std::array<std::int64_t, 3>> triangles);
 
-/// The space of the points in .ply, .stl, .obj and .vtp, of volumes whose space is LPS, RAS or LAS; others keep theirs. lps: as medical
-/// programs write meshes, 3D Slicer among them. volume: that of the volume. .glb has axes of its own (docs/formats.md#glb).
+/// The space of the points in .ply, .stl, .obj, .vtp and .vtkhdf, of volumes whose space is LPS, RAS or LAS; others keep theirs. lps: as
+/// medical programs write meshes, 3D Slicer among them. volume: that of the volume. .glb has axes of its own (docs/formats.md#glb).
 enum class PointSpace : std::uint8_t { lps, ras, volume };
 
 struct SurfaceFileOptions {
@@ -97,9 +97,9 @@ struct SurfaceFileOptions {
 /// What a file says of the points of a surface in this space: "LPS", "RAS", "unknown", ...; "glTF" of .glb: metres, y up.
 [[nodiscard]] std::string space_in_file(const std::string& path, const std::string& space, const SurfaceFileOptions& options = {});
 
-/// The format follows the name: .ply (binary), .stl (binary), .obj, .vtp, .glb. Written to a temporary name and renamed: never half a file.
-/// Returns warnings for the user (STL keeps no ids, float32 cannot separate points, ...). Throws Error: usage (unknown extension),
-/// resource.
+/// The format follows the name: .ply (binary), .stl (binary), .obj, .vtp, .glb, .vtkhdf. Written to a temporary name and renamed: never
+/// half a file. Returns warnings for the user (STL keeps no ids, float32 cannot separate points, ...). Throws Error: usage (unknown
+/// extension), resource.
 std::vector<std::string> write_surface(const std::string& path, const Surface& surface, const SurfaceFileOptions& options = {});
 /// The same into a sink (isoatlas/sink.h).
 std::vector<std::string> write_surface(Sink& sink, const Surface& surface, const SurfaceFileOptions& options = {});
@@ -110,16 +110,16 @@ struct NamedSurface {
     std::string name;                    ///< UTF-8
     std::array<std::uint8_t, 3> colour;  ///< red, green, blue: sRGB
 };
-/// Several surfaces in one file: .glb (a node with a name and a material each), .obj (groups), .ply .stl .vtp (one mesh; .ply has the
-/// number of the surface, from 1, as `object` of each point; .vtp as the array `Object`, and the names in its field data). They are of one
-/// volume: Throws Error: usage (none; different spaces or units; curves beside triangles), and as write_surface().
+/// Several surfaces in one file: .glb (a node with a name and a material each), .obj (groups), .ply .stl .vtp .vtkhdf (one mesh; .ply
+/// has the number of the surface, from 1, as `object` of each point; .vtp and .vtkhdf as the array `Object`, and the names in field data).
+/// They are of one volume: Throws Error: usage (none; different spaces or units; curves beside triangles), and as write_surface().
 std::vector<std::string> write_surfaces(const std::string& path, std::span<const NamedSurface> surfaces,
                                         const SurfaceFileOptions& options = {});
 std::vector<std::string> write_surfaces(Sink& sink, std::span<const NamedSurface> surfaces, const SurfaceFileOptions& options = {});
 
-/// Reads back what write_surface writes, and the usual variants of the same formats from other tools. STL points are merged when
-/// bit-equal. Of .glb that write_surface wrote: the points in the space and unit of the volume; of another .glb: as its nodes place them.
-/// Throws Error: input, unsupported.
+/// Reads back what write_surface writes, but for .vtkhdf, and the usual variants of the same formats from other tools. STL points are
+/// merged when bit-equal. Of .glb that write_surface wrote: the points in the space and unit of the volume; of another .glb: as its nodes
+/// place them. Throws Error: input, unsupported.
 struct Mesh {
     Array<std::array<double, 3>> points;
     Array<std::array<std::int64_t, 3>> triangles;

@@ -9,6 +9,7 @@ import numpy as np
 
 from . import _arrays, _core, _html, _names
 from ._calls import Progress, call
+from ._evolution import save_evolution as _save_evolution
 from ._mesh import Array, Check, Mesh, Path, checked
 from ._objects import Object, Table
 from ._tree import Handles, Spectrum, Tree
@@ -265,6 +266,8 @@ class Atlas:
                  normals: bool, ids: bool = True, progress: Progress, threads: int) -> Mesh:
         chosen = [[int(i) for i in given] for given in (objects, contours)]
         return Mesh(self._source.extract(tau, chosen[0], chosen[1], (boundary, style, shell), normals, ids, call(progress, threads)))
+
+    save_evolution = _save_evolution
 
     def objects_at(self, tau: float, *, progress: Progress = None, threads: int = 0) -> list[dict[str, Any]]:
         """Every object at an isovalue, the largest first: ``id``, ``voxels``, ``measure``, ``chi``, ``tunnels``, ``cavities``, ``box``

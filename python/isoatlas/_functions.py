@@ -270,7 +270,7 @@ def verify(what: Any, *, strict: bool = True, **options: Any) -> tuple[Check, ..
     VerificationError
         One does not hold, unless strict is False.
     """
-    if _arrays.is_path(what) and os.fspath(what).lower().endswith((".ply", ".stl", ".obj", ".vtp", ".glb")):
+    if _arrays.is_path(what) and os.fspath(what).lower().endswith((".ply", ".stl", ".obj", ".vtp", ".glb", ".vtkhdf")):
         what = read_mesh(what)
     if isinstance(what, Mesh):
         return what.verify(strict=strict)
@@ -278,7 +278,7 @@ def verify(what: Any, *, strict: bool = True, **options: Any) -> tuple[Check, ..
 
 
 def save_meshes(path: Path, meshes: Any, *, names: Any = None, colours: Any = None, space: str = "lps") -> list[str]:
-    """Writes several meshes to one .glb, .obj, .ply, .stl or .vtp: each with its name and colour where the format has them."""
+    """Writes several meshes to one .glb, .obj, .ply, .stl, .vtp or .vtkhdf: each with its name and colour where the format has them."""
     from ._pictures import colour_of
     meshes = list(meshes)
     names = list(names) if names is not None else [f"object {i + 1}" for i in range(len(meshes))]

@@ -130,7 +130,7 @@ class Mesh:
         return _mesh_of, (arrays, self._surface.about)
 
     def save(self, path: Path, *, space: str = "lps") -> list[str]:
-        """Writes .ply, .stl, .obj, .vtp or .glb, by the name; never half a file.
+        """Writes .ply, .stl, .obj, .vtp, .glb or .vtkhdf, by the name; never half a file.
 
         Parameters
         ----------
@@ -197,7 +197,7 @@ def _mesh_of(arrays: dict[str, Any], about: dict[str, Any]) -> Mesh:
 
 
 def read_mesh(path: Path) -> Mesh:
-    """Reads .ply, .stl, .obj, .vtp or .glb.
+    """Reads .ply, .stl, .obj, .vtp or .glb; .vtkhdf is written only.
 
     Raises
     ------

@@ -1,8 +1,10 @@
 // The class Source: surfaces, cuts and labels at isovalues. Isovalues are stored ones unless a name says "reported".
+#include <algorithm>
 #include <memory>
 #include <string>
 
 #include <isoatlas/cavities.h>
+#include <isoatlas/evolution_file.h>
 #include <isoatlas/isovalue.h>
 #include <isoatlas/nested_labels.h>
 #include <isoatlas/output.h>
@@ -43,6 +45,34 @@ std::shared_ptr<Surface> extract(const std::shared_ptr<Source>& source, double t
     options.boundary = boundary_of(boundary), options.style = style_of(style), options.shell = shell_of(shell);
     options.objects = objects, options.contours = contours, options.normals = normals, options.ids = ids;
     return long_call(call, [=](const Context& context) { return std::make_shared<Surface>(source->extract(tau, options, context)); });
+}
+
+/// Progress of a step as a part of the whole.
+Context context_of_step(const Context& whole, std::size_t step, std::size_t steps) {
+    Context own = whole;
+    if (!whole.progress) return own;
+    own.progress = [&whole, step, steps](const Progress& progress) {
+        Progress shown = progress;
+        shown.phase_index = static_cast<int>(step), shown.phase_count = static_cast<int>(steps);
+        shown.fraction = (progress.phase_index + progress.fraction) / std::max(1, progress.phase_count);
+        whole.progress(shown);
+    };
+    return own;
+}
+
+void write_evolution(const std::shared_ptr<Source>& source, const std::string& path, const std::vector<double>& taus,
+                     const std::tuple<std::string, std::string, std::string>& words, bool normals, const std::string& space,
+                     const CallOptions& call) {
+    SurfaceOptions options;
+    const auto& [boundary, style, shell] = words;
+    options.boundary = boundary_of(boundary), options.style = style_of(style), options.shell = shell_of(shell);
+    options.normals = normals;
+    const SurfaceFileOptions file_options{.space = point_space_of(space)};
+    long_call(call, [=](const Context& context) {
+        EvolutionFile file(path, file_options);
+        for (std::size_t i = 0; i < taus.size(); ++i) file.add(source->extract(taus[i], options, context_of_step(context, i, taus.size())));
+        file.commit();
+    });
 }
 
 template <class Entry>
@@ -190,6 +220,8 @@ void add_sources(py::module_& module) {
              })
         .def("extract", &extract, py::arg("tau"), py::arg("objects"), py::arg("contours"), py::arg("words"), py::arg("normals"),
              py::arg("ids"), py::arg("call"))
+        .def("write_evolution", &write_evolution, py::arg("path"), py::arg("taus"), py::arg("words"), py::arg("normals"), py::arg("space"),
+             py::arg("call"))
         .def("cut", &cut_at, py::arg("tau"), py::arg("call"))
         .def("betti", &betti_at, py::arg("tau"), py::arg("call"))
         .def("labels", &labels_at, py::arg("tau"), py::arg("objects"), py::arg("call"))

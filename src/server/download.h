@@ -18,6 +18,10 @@ public:
         stop_if_cancelled(context_);
         MemorySink::write(bytes);
     }
+    void write_at(std::int64_t offset, std::span<const std::byte> bytes) override {
+        stop_if_cancelled(context_);
+        MemorySink::write_at(offset, bytes);
+    }
 
 private:
     const Context& context_;

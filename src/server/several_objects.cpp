@@ -129,7 +129,7 @@ Labelled labelled(const SeveralObjects& all, const std::vector<NamedPart>& parts
 Response surfaces_answer(const SeveralObjects& all, const Request& request, const Context& context) {
     QueryParameters words(request.words);
     const std::vector<NamedPart> parts = parts_of(all, words);
-    const std::string format = words.choice("format", {"ply", "stl", "obj", "vtp", "glb"}).value_or("glb");
+    const std::string format = words.choice("format", {"ply", "stl", "obj", "vtp", "glb", "vtkhdf"}).value_or("glb");
     const std::string unit = unit_of_lengths(words, all.sides.stores.main.info().geometry);
     words.reject_unknown();
     std::vector<NamedSurface> surfaces;

@@ -11,8 +11,8 @@
 #include "codec/checksum.h"
 #include "codec/chunk_codec.h"
 #include "codec/frame.h"
+#include "formats/common/hdf5_layout.h"
 #include "store/container.h"
-#include "store/hdf5_layout.h"
 
 namespace isoatlas {
 namespace {
@@ -103,7 +103,7 @@ private:
 
 /// Appends the locations of its chunks to `places`.
 void write_chunks(AtomicFile& file, Hdf5Layout& layout, const PackedArray& source, StoredArray& array, std::vector<ByteRange>& places) {
-    layout.begin_chunks("/" + source.name, source.type, array.count(), source.chunk);
+    layout.begin_chunks("/" + source.name, source.type, array.count(), source.chunk, kDeflateLevel);
     ChunkWriter writer(file, layout, array);
     if (source.feed_chunks) {
         source.feed_chunks([&](std::span<const std::byte> packed) { writer.put_chunk(packed); });
@@ -150,7 +150,7 @@ StoreFrame frame_of(std::vector<ByteRange> ranges, const std::vector<Hdf5Layout:
 
 std::int64_t pack_store(const std::string& path, Contents contents, const std::vector<PackedArray>& arrays) {
     AtomicFile file(path);
-    Hdf5Layout layout(path);
+    Hdf5Layout layout(path, kHeaderBytes);
     contents.arrays.clear();
     for (const PackedArray& source : arrays) {
         StoredArray array{source.name, source.type, source.shape, 0, source.block, 0, 0, source.chunk};

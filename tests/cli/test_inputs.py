@@ -56,7 +56,7 @@ class Inputs(CliTest):
     def test_every_verb_reads_and_writes_utf_8(self):
         """The harness decodes what is printed: anything but UTF-8 would raise."""
         stem = os.fsdecode(b"\xe4us")
-        outputs = {"extract": ([".ply", ".stl", ".obj", ".vtp", ".glb"], ["--best"]), "label": ([".nrrd", ".nii", ".tif"], ["--zones"]),
+        outputs = {"extract": ([".ply", ".stl", ".obj", ".vtp", ".glb", ".vtkhdf"], ["--best"]), "label": ([".nrrd", ".nii", ".tif"], ["--zones"]),
                    "tree": ([".json", ".graphml", ".csv", ".vtu"], []), "convert": ([".nrrd", ".npy", ".raw", ".mha", ".nii", ".vti", ".tif"], []),
                    "spectrum": ([".svg", ".csv", ".json"], []), "render": ([".png"], ["--tau", "100", "--size", "32x32", "--samples", "1"])}
         for verb in ("objects", "handles", "spectrum", "tree", "verify"):

@@ -40,6 +40,7 @@ class Schemas(harness.CliTest):
             self.check("measure", "measure", file, "--tau", "7", "--no-percolation")
             self.check("extract", "extract", file, "--tau", "7", "-o", "x.ply")
             self.check("extract", "extract", file, "--best", "--style", "full", "--boundary", "open", "-o", "x.stl")
+            self.check("animate-surfaces", "animate", file, "--from", "9", "--to", "7", "--steps", "3", "-o", "x.vtkhdf")
             self.check("label", "label", file, "--tau", "7", "-o", "x.nrrd")
             self.check("label", "label", file, "--tau", "7", "--cavities", "-o", "x.nrrd")
             self.check("label", "label", file, "--zones", "-o", "x.nrrd")

@@ -65,7 +65,7 @@ class View(harness.CliTest):
             self.assertEqual(status, 200, body)
             self.assertEqual(int(headers["X-Triangles"]), extracted["triangles"])
             self.assertEqual(body[:4], b"iam1")
-            for format in ("ply", "stl", "obj", "vtp", "glb"):
+            for format in ("ply", "stl", "obj", "vtp", "glb", "vtkhdf"):
                 self.run_json("extract", "field.atlas", "--tau", repr(tau), "--object", f"v{entry['id']}", "-o", "x." + format)
                 one = f"/api/surface?tau={tau!r}&object=v{entry['id']}" if format != "glb" else f"/api/surfaces?object=v{entry['id']}@{tau!r}"
                 status, _, body = self.ask(f"{one}&format={format}")   # a node of .glb has a name
@@ -100,7 +100,7 @@ class View(harness.CliTest):
     def test_a_unit_where_the_file_says_none(self):
         entry = self.run_json("objects", "field.atlas")["objects"][0]
         what = f"v{entry['id']}@{entry['best_tau']!r}"
-        for format in ("ply", "stl", "obj", "vtp", "glb"):
+        for format in ("ply", "stl", "obj", "vtp", "glb", "vtkhdf"):
             self.run_json("extract", "field.atlas", "--unit", "um", "--object", what, "-o", "x." + format)
             where = f"/api/surfaces?object={what}" if format == "glb" else f"/api/surface?tau={entry['best_tau']!r}&object=v{entry['id']}"
             status, _, body = self.ask(f"{where}&format={format}&unit=%C2%B5m")

@@ -68,6 +68,7 @@ struct AnimationArguments {
     std::optional<double> from, to;  ///< calibrated; none: a turntable
     std::int64_t steps = 36;
     double frames_per_second = 12;
+    std::string picture_option{};  ///< the first typed option that shapes pictures alone
 };
 
 struct PictureArguments {

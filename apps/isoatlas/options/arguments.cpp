@@ -94,6 +94,18 @@ void check_both(const Arguments& arguments) {
           "--top N or --object REF");
 }
 
+/// Of `animate`: the first option that is neither about isovalues nor one of all verbs.
+std::string first_picture_option(const CLI::App& app) {
+    constexpr std::array<std::string_view, 5> kOthers{"from", "to", "steps", "output", "help"};
+    for (const CLI::Option* option : app.get_options()) {
+        const std::string group = option->get_group();
+        if (option->count() == 0 || option->get_lnames().empty() || group == "Input options" || group == "Output options") continue;
+        const std::string& name = option->get_lnames()[0];
+        if (std::ranges::find(kOthers, name) == kOthers.end()) return "--" + name;
+    }
+    return {};
+}
+
 void convert(const CLI::App& app, const Typed& typed, Arguments& arguments) {
     const auto given = [&](const char* name) {
         const CLI::Option* option = app.get_option_no_throw(name);
@@ -120,6 +132,7 @@ void convert(const CLI::App& app, const Typed& typed, Arguments& arguments) {
         "--labels", typed.labels, {{"auto", LabelChoice::automatic}, {"yes", LabelChoice::yes}, {"no", LabelChoice::no}});
     convert_selection(given, typed.selection, arguments);
     if (app.get_option_no_throw("--background") != nullptr) convert_picture(typed.picture, arguments.picture);
+    if (arguments.verb == "animate") arguments.picture.animation.picture_option = first_picture_option(app);
     if (given("--tau") && typed.picture.taus.empty()) {
         if (!std::isfinite(typed.tau))
             usage("--tau is not a finite number", "give an isovalue inside the range that `isoatlas info` prints");

@@ -71,7 +71,7 @@ void add_animation(CLI::App& app, Arguments& arguments) {
     AnimationArguments& animation = arguments.picture.animation;
     add_number(app, "--from", animation.from, "First isovalue of an evolution; without --from and --to: a turntable")->type_name("A");
     add_number(app, "--to", animation.to, "Last isovalue of an evolution")->type_name("B");
-    add_number(app, "--steps", animation.steps, "Number of frames (36)")
+    add_number(app, "--steps", animation.steps, "Number of frames, or of surfaces (36)")
         ->check(in_range(std::int64_t{1}, std::int64_t{10000}))
         ->type_name("N");
     add_number(app, "--fps", animation.frames_per_second, "Frames per second (12)")->check(in_range(0.1, 100.0))->type_name("F");

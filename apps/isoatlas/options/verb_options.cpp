@@ -87,7 +87,7 @@ void extract_options(CLI::App& app, Arguments& arguments, Typed& typed) {
     app.add_option("--space", typed.space, "Coordinates of medical volumes: lps (as Slicer), ras, or file: those of the volume")
         ->type_name("lps|ras|file");
     app.add_flag("--best", arguments.best, "The first object of the table at its best isovalue");
-    add_output(app, arguments, ".ply .stl .obj .vtp .glb", true);
+    add_output(app, arguments, ".ply .stl .obj .vtp .glb .vtkhdf", true);
 }
 
 void render_options(CLI::App& app, Arguments& arguments, Typed& typed) {
@@ -100,7 +100,7 @@ void animate_options(CLI::App& app, Arguments& arguments, Typed& typed) {
     add_animation(app, arguments);
     add_selection(app, typed.selection, false);
     add_picture(app, arguments, typed.picture);
-    add_output(app, arguments, ".gif .webp .png .apng .mp4", true);
+    add_output(app, arguments, ".gif .webp .png .apng .mp4; .vtkhdf: the surfaces of an evolution", true);
 }
 
 void label_options(CLI::App& app, Arguments& arguments, Typed& typed) {

@@ -1,5 +1,6 @@
 // isoatlas animate: a turntable of objects, or their evolution while the isovalue changes.
 #include <algorithm>
+#include <filesystem>
 #include <map>
 
 #include <fmt/format.h>
@@ -94,6 +95,12 @@ std::vector<std::string> caption(const Frame& frame, const Frame* before, const 
             "isovalue " + scale.brief(frame.tau)};
 }
 
+bool has_surfaces(const std::string& output) {
+    std::string extension = std::filesystem::path(output).extension().string();
+    for (char& c : extension) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+    return extension == ".vtkhdf";
+}
+
 std::vector<double> isovalues(const Arguments& arguments, Source& source) {
     const AnimationArguments& animation = arguments.picture.animation;
     const double from = source.stored(*animation.from), to = source.stored(*animation.to);
@@ -186,7 +193,7 @@ void print_json(const Arguments& arguments, Terminal& terminal, Source& source, 
 
 int run_animate(const Arguments& arguments, Terminal& terminal) {
     const AnimationArguments& wanted = arguments.picture.animation;
-    check_output(arguments, {".gif", ".webp", ".png", ".apng", ".mp4"});
+    check_output(arguments, {".gif", ".webp", ".png", ".apng", ".mp4", ".vtkhdf"});
     check_movie(arguments.output);
     if (wanted.from.has_value() != wanted.to.has_value()) {
         throw Error(ErrorKind::usage,
@@ -195,6 +202,9 @@ int run_animate(const Arguments& arguments, Terminal& terminal) {
     if (arguments.selects && !wanted.from)
         throw Error(ErrorKind::usage,
                     {.what = "a selection applies to an evolution only", .next = "give --from and --to, or omit the selection"});
+    if (has_surfaces(arguments.output)) {
+        return animate_surfaces(arguments, terminal, [&](Source& source) { return isovalues(arguments, source); });
+    }
     Sides sides(arguments, terminal);
     Source& source = sides.main();
     RenderOptions options = options_of_picture(arguments.picture);

@@ -38,7 +38,7 @@ void check_extract_arguments(const Arguments& arguments) {
         throw Error(ErrorKind::usage, {.what = "--min-wall is a limit of what --for-print says", .next = "add --for-print, or omit it"});
     if (arguments.split && !chooses && !has_contours)
         throw Error(ErrorKind::usage, {.what = "--split writes a file for each chosen object", .next = "add --top N or --object REF"});
-    check_output(arguments, {".ply", ".stl", ".obj", ".vtp", ".glb"});
+    check_output(arguments, {".ply", ".stl", ".obj", ".vtp", ".glb", ".vtkhdf"});
 }
 
 /// The objects and contours of the command line; empty: everything at --tau.
@@ -193,7 +193,8 @@ void print_text(const Arguments& arguments, Terminal& terminal, Source& source, 
     }
     if (written.print) terminal.out() << printing_text(*written.print) << '\n';
     const std::string file = arguments.split ? written.parts[0].output : arguments.output;
-    if (written.counts.triangles > 0 && written.counts.closed) terminal.next("isoatlas verify " + shell_word(file));
+    if (written.counts.triangles > 0 && written.counts.closed && !file.ends_with(".vtkhdf"))
+        terminal.next("isoatlas verify " + shell_word(file));
 }
 
 /// Everything at one isovalue.
@@ -253,7 +254,7 @@ Written write_several(const Arguments& arguments, Sides& sides, const std::vecto
 
 int run_extract(const Arguments& arguments, Terminal& terminal) {
     if (arguments.inputs.are_labels && !arguments.tau && !arguments.best) {
-        check_output(arguments, {".ply", ".stl", ".obj", ".vtp", ".glb"});
+        check_output(arguments, {".ply", ".stl", ".obj", ".vtp", ".glb", ".vtkhdf"});
         return extract_label_objects(arguments, terminal);
     }
     check_extract_arguments(arguments);

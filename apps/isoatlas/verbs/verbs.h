@@ -9,6 +9,7 @@
 
 namespace isoatlas::cli {
 
+class Source;
 class Terminal;
 
 int run_atlas(const Arguments& arguments, Terminal& terminal);
@@ -30,6 +31,8 @@ int label_label_objects(const Arguments& arguments, Terminal& terminal);
 int run_objects_of_both(const Arguments& arguments, Terminal& terminal);
 int run_render(const Arguments& arguments, Terminal& terminal);
 int run_animate(const Arguments& arguments, Terminal& terminal);
+/// animate -o FILE.vtkhdf. isovalues: those of the command line, stored.
+int animate_surfaces(const Arguments& arguments, Terminal& terminal, const std::function<std::vector<double>(Source&)>& isovalues);
 /// Build options of a volume.
 [[nodiscard]] BuildOptions build_options(const Arguments& arguments, const VolumeInfo& info);
 /// Builds arguments.output and prints its notes. watch: receives the progress too; may be empty. high_values: BuildOptions::high_values.

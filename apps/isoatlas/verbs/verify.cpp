@@ -16,7 +16,8 @@ namespace {
 bool is_mesh(const std::string& path) {
     std::string extension = std::filesystem::path(path).extension().string();
     for (char& c : extension) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-    return extension == ".ply" || extension == ".stl" || extension == ".obj" || extension == ".vtp" || extension == ".glb";
+    return extension == ".ply" || extension == ".stl" || extension == ".obj" || extension == ".vtp" || extension == ".glb" ||
+           extension == ".vtkhdf";
 }
 
 int exit_code(const std::vector<CheckResult>& checks) {

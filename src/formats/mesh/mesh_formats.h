@@ -1,4 +1,4 @@
-// The mesh formats behind write_surface and read_mesh: one writer and one parser each. docs/formats.md lists what each keeps.
+// The mesh formats behind write_surface and read_mesh: a writer and, but for VTKHDF, a parser each. docs/formats.md lists what each keeps.
 #pragma once
 
 #include <array>
@@ -21,6 +21,7 @@ void write_stl(Sink& sink, const MeshParts& parts, Warnings& warnings);
 void write_obj(Sink& sink, const MeshParts& parts, Warnings& warnings);
 void write_vtp(Sink& sink, const MeshParts& parts, Warnings& warnings);
 void write_glb(Sink& sink, const MeshParts& parts, Warnings& warnings);
+void write_vtkhdf(Sink& sink, const MeshParts& parts, Warnings& warnings);
 
 // Each parses a whole file. `file` is its name for messages. Throws Error: input, unsupported. The result is well-formed (check_mesh).
 // Allocates in proportion to bytes.size() only.

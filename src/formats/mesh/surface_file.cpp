@@ -12,22 +12,20 @@ namespace {
 struct MeshFormat {
     const char* extension;
     void (*write)(Sink&, const MeshParts&, Warnings&);
-    Mesh (*parse)(std::string_view, const std::string&);
-    bool curves;  ///< holds segments too
+    Mesh (*parse)(std::string_view, const std::string&);  ///< null: it is not read
+    bool curves;                                          ///< holds segments too
 };
 
-constexpr MeshFormat kFormats[] = {{".ply", write_ply, parse_ply, true},
-                                   {".stl", write_stl, parse_stl, false},
-                                   {".obj", write_obj, parse_obj, true},
-                                   {".vtp", write_vtp, parse_vtp, true},
-                                   {".glb", write_glb, parse_glb, false}};
+constexpr MeshFormat kFormats[] = {{".ply", write_ply, parse_ply, true},  {".stl", write_stl, parse_stl, false},
+                                   {".obj", write_obj, parse_obj, true},  {".vtp", write_vtp, parse_vtp, true},
+                                   {".glb", write_glb, parse_glb, false}, {".vtkhdf", write_vtkhdf, nullptr, true}};
 
 const MeshFormat& format_of(const std::string& path) {
     const std::string extension = lower_extension(path);
     for (const MeshFormat& format : kFormats) {
         if (extension == format.extension) return format;
     }
-    refuse_extension(path, {"the mesh format", "mesh format", ".ply, .stl, .obj, .vtp or .glb"});
+    refuse_extension(path, {"the mesh format", "mesh format", ".ply, .stl, .obj, .vtp, .glb or .vtkhdf"});
 }
 
 /// The format, if it can hold the surfaces.
@@ -37,7 +35,7 @@ const MeshFormat& checked_format(const std::string& path, const MeshParts& parts
         throw Error(ErrorKind::usage,
                     {.file = path,
                      .what = std::string(format.extension) + " stores triangles only, and the contours of a 2D image are curves",
-                     .next = "write .ply, .obj or .vtp"});
+                     .next = "write .ply, .obj, .vtp or .vtkhdf"});
     }
     return format;
 }
@@ -85,6 +83,11 @@ std::string space_in_file(const std::string& path, const std::string& space, con
 
 Mesh read_mesh(const std::string& path) {
     const MeshFormat& format = format_of(path);
+    if (format.parse == nullptr) {
+        throw Error(ErrorKind::unsupported, {.file = path,
+                                             .what = std::string(format.extension) + " is written, but not read",
+                                             .next = "write the same surface as .vtp, .ply or .glb"});
+    }
     std::string bytes;
     {
         const std::unique_ptr<File> file = open_file(path);

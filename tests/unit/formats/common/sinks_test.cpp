@@ -30,7 +30,7 @@ void expect_same(const Folder& folder, const std::string& name, const Write& wri
 TEST(Sinks, Surfaces) {
     const Folder folder;
     const Surface surface = mesh_samples::two_objects();
-    for (const char* name : {"s.ply", "s.stl", "s.obj", "s.vtp", "s.glb"}) {
+    for (const char* name : {"s.ply", "s.stl", "s.obj", "s.vtp", "s.glb", "s.vtkhdf"}) {
         std::vector<std::string> warnings;
         expect_same(
             folder, name, [&](const std::string& path) { warnings = write_surface(path, surface); },

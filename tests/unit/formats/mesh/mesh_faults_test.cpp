@@ -48,7 +48,9 @@ TEST_P(Faults, unwritable_paths) {
     expect_resource_error(folder_ / (std::string("folder") + GetParam()));
 }
 
-TEST_P(Faults, unreadable_paths) {
+class ReadFaults : public Faults {};
+
+TEST_P(ReadFaults, unreadable_paths) {
     for (const std::string& name : {std::string("missing"), std::string("folder")}) {
         const std::string path = folder_ / (name + GetParam());
         if (name == "folder") std::filesystem::create_directory(path);
@@ -62,7 +64,9 @@ TEST_P(Faults, unreadable_paths) {
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(Formats, Faults, testing::Values(".ply", ".stl", ".obj", ".vtp", ".glb"),
+INSTANTIATE_TEST_SUITE_P(Formats, Faults, testing::Values(".ply", ".stl", ".obj", ".vtp", ".glb", ".vtkhdf"),
+                         [](const auto& format) { return std::string(format.param).substr(1); });
+INSTANTIATE_TEST_SUITE_P(Formats, ReadFaults, testing::Values(".ply", ".stl", ".obj", ".vtp", ".glb"),
                          [](const auto& format) { return std::string(format.param).substr(1); });
 
 }  // namespace

@@ -1,10 +1,11 @@
 // HDF5 writes into a virtual file that records the written pieces: it never fails, so HDF5 never sees a full disk (after which its cleanup
 // would crash), and its structures are written by the same calls as the arrays.
-#include "store/hdf5_layout.h"
+#include "formats/common/hdf5_layout.h"
 
 #include <hdf5.h>
 
 #include <algorithm>
+#include <array>
 #include <cstring>
 #include <mutex>
 #include <span>
@@ -12,9 +13,7 @@
 #include <utility>
 
 #include "base/check.h"
-#include "codec/chunk_codec.h"
 #include "isoatlas/error.h"
-#include "store/container.h"
 
 namespace isoatlas {
 namespace {
@@ -26,7 +25,8 @@ struct Memory {
     std::vector<Piece> pieces;
     haddr_t end_of_allocation = 0;  ///< address of the next allocation of HDF5
     haddr_t end_of_file = 0;        ///< end of the written bytes
-    haddr_t last_chunk = 0;         ///< address of the last write of array bytes
+    const void* blank = nullptr;    ///< what HDF5 is given for the bytes of a chunk
+    haddr_t last_chunk = 0;         ///< address of its last write
 
     void write(haddr_t offset, std::span<const std::byte> bytes) {
         pieces.push_back({static_cast<std::int64_t>(offset), {bytes.begin(), bytes.end()}});
@@ -79,7 +79,7 @@ struct Driver {
         return 0;
     }
     static herr_t write(H5FD_t* file, H5FD_mem_t kind, hid_t, haddr_t offset, std::size_t size, const void* bytes) try {
-        if (kind == H5FD_MEM_DRAW) {  // only the position of arrays is recorded
+        if (kind == H5FD_MEM_DRAW && bytes == memory_of(file).blank) {  // of chunks only the position is recorded
             memory_of(file).last_chunk = offset;
             memory_of(file).end_of_file = std::max<haddr_t>(memory_of(file).end_of_file, offset + size);
             return 0;
@@ -149,15 +149,15 @@ hid_t hdf5_type(std::string_view type) {
     return H5T_IEEE_F64LE;
 }
 
-hid_t create(Memory& memory) {
+hid_t create(Memory& memory, std::int64_t user_block) {
     H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
     const Handle creation(H5Pcreate(H5P_FILE_CREATE), H5Pclose), access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
-    H5Pset_userblock(creation, static_cast<hsize_t>(kHeaderBytes));
+    H5Pset_userblock(creation, static_cast<hsize_t>(user_block));
     H5Pset_obj_track_times(creation, 0);
     H5Pset_libver_bounds(access, H5F_LIBVER_V110, H5F_LIBVER_V110);  // its structures have checksums
     Memory* const argument = &memory;
     H5Pset_driver(access, Driver::id(), static_cast<const void*>(&argument));
-    return H5Fcreate("store", H5F_ACC_TRUNC, creation, access);
+    return H5Fcreate("layout", H5F_ACC_TRUNC, creation, access);
 }
 
 /// HDF5 does not always check allocations: ensures the memory of an empty file. Throws std::bad_alloc.
@@ -182,14 +182,33 @@ struct Hdf5Layout::Data {
     hid_t chunked = -1;  ///< the array of the next chunks
     hsize_t next_chunk = 0, chunk = 0;
     std::vector<std::byte> blank;  ///< HDF5 requires some bytes
+    struct Rows {
+        std::string name;
+        hid_t set;
+        hsize_t columns, chunk_rows, rows;
+        std::size_t chunk_bytes;
+    };
+    std::vector<Rows> growing;
 
     void end_chunks() {
         if (chunked >= 0) H5Dclose(std::exchange(chunked, -1));
     }
+    void end_rows() {
+        for (Rows& rows : growing) {
+            if (rows.set >= 0) H5Dclose(std::exchange(rows.set, -1));
+        }
+    }
+    /// Offset of a chunk that begins at `first`.
+    std::int64_t allocate(hid_t set, const std::string& name, const hsize_t* first, std::size_t bytes) {
+        if (blank.size() < bytes) blank.resize(bytes);
+        memory.blank = blank.data();
+        if (H5Dwrite_chunk(set, H5P_DEFAULT, 0, first, bytes, blank.data()) < 0) no_memory("a chunk of " + name);
+        return static_cast<std::int64_t>(memory.last_chunk);
+    }
     [[noreturn]] void no_memory(const std::string& what) const {
         throw Error(
             ErrorKind::resource,
-            {.file = path, .what = "cannot be written: HDF5 has no room for " + what, .next = "free some memory, then build again"});
+            {.file = path, .what = "cannot be written: HDF5 has no room for " + what, .next = "free some memory, then write it again"});
     }
     /// Groups that HDF5 creates implicitly have time stamps.
     void add_groups(const std::string& name) const {
@@ -202,19 +221,26 @@ struct Hdf5Layout::Data {
             if (made < 0) no_memory("the group " + group);
         }
     }
+    void set_attribute(const std::string& group, const char* name, hid_t type, hid_t space, const void* value) const {
+        add_groups(group + "/");
+        const Handle owner(H5Gopen2(file, group.c_str(), H5P_DEFAULT), H5Gclose);
+        const Handle attribute(H5Acreate2(owner, name, type, space, H5P_DEFAULT, H5P_DEFAULT), H5Aclose);
+        if (attribute < 0 || H5Awrite(attribute, type, value) < 0) no_memory(std::string("the attribute ") + name);
+    }
 };
 
-Hdf5Layout::Hdf5Layout(std::string path) : data_(std::make_unique<Data>()) {
+Hdf5Layout::Hdf5Layout(std::string path, std::int64_t user_block) : data_(std::make_unique<Data>()) {
     const std::lock_guard lock(hdf5_mutex());
     data_->path = std::move(path);
     require_room();
-    data_->file = create(data_->memory);
+    data_->file = create(data_->memory, user_block);
     if (data_->file < 0) data_->no_memory("a file");
 }
 
 Hdf5Layout::~Hdf5Layout() {
     const std::lock_guard lock(hdf5_mutex());
     data_->end_chunks();
+    data_->end_rows();
     if (data_->file >= 0) H5Fclose(data_->file);
 }
 
@@ -235,7 +261,7 @@ std::int64_t Hdf5Layout::add(const std::string& name, const std::string& type, c
     return address == HADDR_UNDEF ? 0 : static_cast<std::int64_t>(address);
 }
 
-void Hdf5Layout::begin_chunks(const std::string& name, const std::string& type, std::int64_t count, std::int64_t chunk) {
+void Hdf5Layout::begin_chunks(const std::string& name, const std::string& type, std::int64_t count, std::int64_t chunk, int level) {
     const std::lock_guard lock(hdf5_mutex());
     data_->end_chunks();
     const auto all = static_cast<hsize_t>(count);
@@ -245,7 +271,7 @@ void Hdf5Layout::begin_chunks(const std::string& name, const std::string& type, 
     data_->add_groups(name);
     H5Pset_chunk(creation, 1, &data_->chunk);
     H5Pset_shuffle(creation);
-    H5Pset_deflate(creation, kDeflateLevel);
+    H5Pset_deflate(creation, static_cast<unsigned>(level));
     H5Pset_fill_time(creation, H5D_FILL_TIME_NEVER);
     H5Pset_obj_track_times(creation, 0);
     data_->chunked = H5Dcreate2(data_->file, name.c_str(), hdf5_type(type), space, H5P_DEFAULT, creation, H5P_DEFAULT);
@@ -254,11 +280,66 @@ void Hdf5Layout::begin_chunks(const std::string& name, const std::string& type, 
 
 std::int64_t Hdf5Layout::add_chunk(std::int64_t bytes) {
     const std::lock_guard lock(hdf5_mutex());
-    if (static_cast<std::int64_t>(data_->blank.size()) < bytes) data_->blank.resize(static_cast<std::size_t>(bytes));
     const hsize_t first = std::exchange(data_->next_chunk, data_->next_chunk + data_->chunk);
-    const herr_t done = H5Dwrite_chunk(data_->chunked, H5P_DEFAULT, 0, &first, static_cast<std::size_t>(bytes), data_->blank.data());
-    if (done < 0) data_->no_memory("a chunk of an array");
-    return static_cast<std::int64_t>(data_->memory.last_chunk);
+    return data_->allocate(data_->chunked, "an array", &first, static_cast<std::size_t>(bytes));
+}
+
+std::size_t Hdf5Layout::begin_rows(const std::string& name, const std::string& type, std::int64_t columns, std::int64_t chunk_rows) {
+    const std::lock_guard lock(hdf5_mutex());
+    const auto width = static_cast<hsize_t>(columns), height = static_cast<hsize_t>(chunk_rows);
+    const std::array<hsize_t, 2> none{0, width}, most{H5S_UNLIMITED, width}, chunk{height, width};
+    const int rank = columns > 1 ? 2 : 1;
+    const Handle space(H5Screate_simple(rank, none.data(), most.data()), H5Sclose);
+    const Handle creation(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
+    data_->add_groups(name);
+    H5Pset_chunk(creation, rank, chunk.data());
+    H5Pset_fill_time(creation, H5D_FILL_TIME_NEVER);
+    H5Pset_obj_track_times(creation, 0);
+    const hid_t number = hdf5_type(type);
+    const hid_t set = H5Dcreate2(data_->file, name.c_str(), number, space, H5P_DEFAULT, creation, H5P_DEFAULT);
+    if (set < 0) data_->no_memory("the array " + name);
+    data_->growing.push_back({name, set, width, height, 0, static_cast<std::size_t>(width * height) * H5Tget_size(number)});
+    return data_->growing.size() - 1;
+}
+
+std::int64_t Hdf5Layout::add_rows(std::size_t array, std::int64_t rows) {
+    const std::lock_guard lock(hdf5_mutex());
+    Data::Rows& growing = data_->growing[array];
+    ISOATLAS_CHECK(rows > 0 && static_cast<hsize_t>(rows) <= growing.chunk_rows && growing.rows % growing.chunk_rows == 0);
+    const std::array<hsize_t, 2> first{growing.rows, 0}, extent{growing.rows + static_cast<hsize_t>(rows), growing.columns};
+    if (H5Dset_extent(growing.set, extent.data()) < 0) data_->no_memory(growing.name);
+    growing.rows = extent[0];
+    return data_->allocate(growing.set, growing.name, first.data(), growing.chunk_bytes);
+}
+
+void Hdf5Layout::add_texts(const std::string& name, std::span<const std::string> texts) {
+    const std::lock_guard lock(hdf5_mutex());
+    data_->end_chunks();
+    std::vector<const char*> pointers;
+    for (const std::string& text : texts) pointers.push_back(text.c_str());
+    const hsize_t count = texts.size();
+    const Handle space(H5Screate_simple(1, &count, nullptr), H5Sclose), type(H5Tcopy(H5T_C_S1), H5Tclose);
+    H5Tset_size(type, H5T_VARIABLE);  // UTF-8 that is called ASCII: VTK reads texts as ASCII, and HDF5 converts neither into the other
+    const Handle creation(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
+    data_->add_groups(name);
+    H5Pset_obj_track_times(creation, 0);
+    const Handle set(H5Dcreate2(data_->file, name.c_str(), type, space, H5P_DEFAULT, creation, H5P_DEFAULT), H5Dclose);
+    if (set < 0 || H5Dwrite(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, pointers.data()) < 0) data_->no_memory("the texts " + name);
+}
+
+void Hdf5Layout::set_attribute(const std::string& group, const char* name, std::span<const std::int64_t> numbers) {
+    const std::lock_guard lock(hdf5_mutex());
+    const hsize_t count = numbers.size();
+    const Handle space(count == 1 ? H5Screate(H5S_SCALAR) : H5Screate_simple(1, &count, nullptr), H5Sclose);
+    data_->set_attribute(group, name, H5T_STD_I64LE, space, numbers.data());
+}
+
+void Hdf5Layout::set_attribute(const std::string& group, const char* name, std::string_view text) {
+    const std::lock_guard lock(hdf5_mutex());
+    const Handle space(H5Screate(H5S_SCALAR), H5Sclose), type(H5Tcopy(H5T_C_S1), H5Tclose);
+    H5Tset_size(type, text.size());
+    H5Tset_strpad(type, H5T_STR_NULLPAD);
+    data_->set_attribute(group, name, type, space, text.data());
 }
 
 std::int64_t Hdf5Layout::size() const { return static_cast<std::int64_t>(data_->memory.end_of_allocation); }
@@ -266,6 +347,7 @@ std::int64_t Hdf5Layout::size() const { return static_cast<std::int64_t>(data_->
 const std::vector<Hdf5Layout::Piece>& Hdf5Layout::finish() {
     const std::lock_guard lock(hdf5_mutex());
     data_->end_chunks();
+    data_->end_rows();
     if (H5Fclose(std::exchange(data_->file, -1)) < 0) data_->no_memory("its structures");
     return data_->memory.pieces;
 }
