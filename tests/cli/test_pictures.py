@@ -363,7 +363,7 @@ class Pictures(CliTest):
             self.run_error(5, "render", "figure.nrrd", "--tau", "60", "-o", "nowhere/" + name, says="folder")
         for name in ("p.gif", "p.apng", "p.webp"):
             self.run_error(5, "animate", "figure.nrrd", "--steps", "2", "-o", "nowhere/" + name, says="folder")
-        self.run_error(2, "animate", "figure.nrrd", "-o", "p.vtkhdf", "--from", "3", says="which isovalues")
+        self.run_error(2, "animate", "figure.nrrd", "-o", "p.vtkhdf", says="which isovalues")
         for option, *value in (["--cut", "half"], ["--keep", "2"], ["--tau", "60"], ["--plain"], ["--fps", "9"]):
             self.run_error(2, "animate", "figure.nrrd", "-o", "p.vtkhdf", "--from", "90", "--to", "30", option, *value, says=option)
         self.run_error(5, "animate", "figure.nrrd", "--from", "90", "--to", "30", "-o", "nowhere/p.vtkhdf", says="folder")
