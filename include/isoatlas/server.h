@@ -50,7 +50,7 @@ struct ServerOptions {
     std::int64_t memory = 0;    ///< bytes for responses in progress at a time; 0: a quarter of the memory available
     bool is_read_only = false;  ///< names of objects cannot be changed
     ServerLink link{};
-    SceneFile scene{};  ///< a page without a link to a view begins with it; none where its text is empty
+    SceneFile scene{};  ///< a page without a link to a view begins with it; none where its text is empty. See also Server::set_scene()
 };
 
 /// Listens on 127.0.0.1 alone. Requests and responses: docs/server.md. Writes nothing to any disk but what keep_token() does, and names
@@ -69,6 +69,9 @@ public:
     [[nodiscard]] const std::string& token() const;
     /// A new address that opens the page in one browser: valid once, for ten minutes; the oldest of more than 16 expires. Thread safe.
     [[nodiscard]] std::string address_for_one_use();
+    /// The same of a page for a frame of any other page, such as a cell of a notebook: it needs no cookie and may be below another name, of
+    /// a proxy. Pages in frames share a scene with this program. Thread safe.
+    [[nodiscard]] std::string address_for_one_frame();
     /// Keeps the token in a file of this user alone, where ask_server() finds it, as long as this lives: viewer-PORT in
     /// $XDG_RUNTIME_DIR/isoatlas, else $XDG_CACHE_HOME/isoatlas or ~/.cache/isoatlas. Throws Error{resource}.
     void keep_token();
@@ -88,6 +91,12 @@ public:
     void report_progress(const BuildState& state);
     /// There will be no store. Another report_progress() or open() revokes it.
     void fail(const Error& error);
+    /// The scene that pages in frames show, JSON (docs/scene.md): that which was set last, by one of them or set_scene(); else that of the
+    /// options; empty: none. New pages begin with it.
+    [[nodiscard]] std::string scene() const;
+    /// Pages in frames show it at once. Throws Error: usage (not a scene, of a volume of another size, longer than 4 MiB), resource (there
+    /// is no store yet).
+    void set_scene(const std::string& text);
 
 private:
     struct Data;

@@ -1,7 +1,6 @@
 #include "server/answers.h"
 
 #include <algorithm>
-#include <filesystem>
 #include <limits>
 
 #include "page/page_json.h"
@@ -129,24 +128,16 @@ std::string address_json(const std::string& address) {
     return document("address", [&](JsonStream& json) { json.key("address").value(address); });
 }
 
-std::string scene_json(const SceneFile& scene) {
-    if (scene.text.empty()) return document("scene", [](JsonStream& json) { json.key("scene").null(); });
-    const std::string name = std::filesystem::path(scene.path).filename().string();
-    std::string text = document("scene", [&](JsonStream& json) { json.key("file").value(name); });
-    text.erase(text.rfind('}'));  // its text is JSON already
-    return text + ", \"scene\": " + scene.text + "}\n";
-}
-
 std::string error_json(const Error& error) {
     return document("error", [&](JsonStream& json) { put_error(json, error); });
 }
 
-std::string events_json(const StoreState::State& state, const std::vector<JobQueues::Pending>& pending) {
+std::string events_json(const StoreState::State& state, const std::vector<JobQueues::Pending>& pending, std::uint64_t scene) {
     std::string text = document("events", [&](JsonStream& json) {
         json.key("state").value(state.is_open ? "open" : state.failure ? "failed" : "building");
         if (!state.is_open && state.failure) put_error(json, *state.failure);
         if (!state.is_open && !state.failure) put_build(json, state.build);
-        json.key("requests").begin_array();
+        json.key("scene").value(static_cast<std::int64_t>(scene)).key("requests").begin_array();
         for (const auto& [line, request] : pending) {
             json.begin_object().key("client").value(request.client).key("queue").value(line).key("place").value(request.place);
             json.key("fraction").value(request.fraction).end_object();

@@ -12,7 +12,6 @@
 #include "isoatlas/error.h"
 #include "isoatlas/measures.h"
 #include "isoatlas/render.h"
-#include "isoatlas/server.h"
 #include "server/job_queues.h"
 #include "server/store_state.h"
 
@@ -43,10 +42,8 @@ struct AtVoxel {
 /// calibration: for the values of the tents, which are stored ones.
 [[nodiscard]] std::string transfer_json(std::span<const OpacityTent> tents, const Calibration& calibration);
 [[nodiscard]] std::string address_json(const std::string& address);
-/// Where pages begin, and the name of its file; null: nowhere.
-[[nodiscard]] std::string scene_json(const SceneFile& scene);
 [[nodiscard]] std::string error_json(const Error& error);
-/// On one line. pending: jobs of the listening client.
-[[nodiscard]] std::string events_json(const StoreState::State& state, const std::vector<JobQueues::Pending>& pending);
+/// On one line. pending: jobs of the listening client. scene: the version of the shared one.
+[[nodiscard]] std::string events_json(const StoreState::State& state, const std::vector<JobQueues::Pending>& pending, std::uint64_t scene);
 
 }  // namespace isoatlas

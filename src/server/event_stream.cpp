@@ -2,6 +2,7 @@
 
 #include "isoatlas/error.h"
 #include "server/answers.h"
+#include "server/shared_scene.h"
 
 namespace isoatlas {
 namespace {
@@ -31,7 +32,7 @@ EventStream::~EventStream() {
 std::string EventStream::state() const {
     std::vector<JobQueues::Pending> pending;
     if (!client_.empty()) pending = streams_.queues_.pending(client_);
-    return events_json(streams_.store_state_.state(), pending);
+    return events_json(streams_.store_state_.state(), pending, streams_.scene_.version());
 }
 
 std::string EventStream::next() {

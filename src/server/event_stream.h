@@ -15,6 +15,7 @@
 namespace isoatlas {
 
 class EventStreams;
+class SharedScene;
 
 /// The stream of one client. When the last stream of a client ends, its requests are cancelled.
 class EventStream {
@@ -42,8 +43,8 @@ private:
 /// All streams of a server.
 class EventStreams {
 public:
-    EventStreams(const StoreState& store_state, JobQueues& lines, VersionCounter& changes)
-        : store_state_(store_state), queues_(lines), changes_(changes) {}
+    EventStreams(const StoreState& store_state, JobQueues& lines, const SharedScene& scene, VersionCounter& changes)
+        : store_state_(store_state), queues_(lines), scene_(scene), changes_(changes) {}
 
     /// Throws Error{resource} when there are too many streams. client: without a lane; empty: it has no requests.
     [[nodiscard]] std::shared_ptr<EventStream> listen(const std::string& client, IsDisconnected is_disconnected);
@@ -55,6 +56,7 @@ private:
 
     const StoreState& store_state_;
     JobQueues& queues_;
+    const SharedScene& scene_;
     VersionCounter& changes_;
     std::atomic<bool> ended_ = false;
     std::mutex mutex_;

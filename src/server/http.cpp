@@ -22,6 +22,7 @@ namespace isoatlas {
 namespace {
 
 constexpr std::size_t kWorthCoding = 512;                  ///< bytes
+constexpr std::string_view kPageHead = "<head>";           ///< of the page
 constexpr std::size_t kShortToken = 16, kLongToken = 256;  ///< letters
 
 std::string checked_token(const std::string& token) {
@@ -60,19 +61,21 @@ struct Server::Data {
         : token(checked_token(options.token.empty() ? options.link.token : options.token)),
           service(token, context, {.memory = options.memory, .is_read_only = options.is_read_only, .scene = options.scene}),
           most_on_its_way(options.memory > 0 ? options.memory : available_memory() / 4),
-          network(options.port > 0 ? options.port : options.link.port, options.port == 0,
-                  {.at_the_door = [this](const RequestHead& head) { return access.answer(head); },
-                   .refusal = AccessControl::refusal,
-                   .answer = [this](const RequestHead& head, const Peer& peer) { return answer(head, peer); }}),
+          network(
+              options.port > 0 ? options.port : options.link.port, options.port == 0,
+              {.at_the_door = [this](const RequestHead& head) { return access.answer(head); },
+               .refusal = AccessControl::refusal,
+               .answer = [this](const RequestHead& head, const std::string& body, const Peer& peer) { return answer(head, body, peer); }}),
           access(network.port(), {token, options.link.cookie, options.link.key, options.link.is_kept}) {}
 
     /// An authorised request. True: another request may follow.
-    bool answer(const RequestHead& head, const Peer& peer) {
+    bool answer(const RequestHead& head, const std::string& body, const Peer& peer) {
         Target target = target_of(head.target);
         if (target.path == "/") target.words.clear();
-        const Request request{target.path, std::move(target.words),           token,
-                              head.client, [peer] { return peer.is_gone(); }, head.method == "PUT"};
+        const Request request{
+            target.path, std::move(target.words), token, head.client, [peer] { return peer.is_gone(); }, head.method == "PUT", body};
         try {
+            if (request.path == "/frame") return send_frame(head, peer);
             Response answer = on_its_way > most_on_its_way     ? too_much()
                               : request.path == "/api/address" ? new_address(request)
                                                                : service.answer(request);
@@ -91,11 +94,27 @@ struct Server::Data {
 
     Response new_address(const Request& request) {
         try {
-            QueryParameters(request.words).reject_unknown();
-            return {200, "application/json", address_json(access.address_for_one_use())};
+            QueryParameters words(request.words);
+            const bool is_for_frame = words.choice("for", {"tab", "frame"}) == "frame";
+            words.reject_unknown();
+            return {200, "application/json", address_json(is_for_frame ? access.address_for_one_frame() : access.address_for_one_use())};
         } catch (const Error& error) {
             return refused(error.kind() == ErrorKind::usage ? 400 : 503, error);
         }
+    }
+
+    /// The page, with a key of its own in its head: its requests need no cookie.
+    bool send_frame(const RequestHead& head, const Peer& peer) {
+        const std::optional<std::string> key = access.open_frame(head.target);
+        if (!key) {
+            (void)peer.send(AccessControl::refused_frame());  // another request has used it meanwhile
+            return false;
+        }
+        Response page = service.answer({"/", {}, token, head.client});
+        if (const std::size_t place = page.bytes.find(kPageHead); place != std::string::npos)
+            page.bytes.insert(place + kPageHead.size(), "<meta name=\"isoatlas-frame\" content=\"" + *key + "\">");
+        page.may_be_framed = true;
+        return send(head, std::move(page), peer);
     }
 
     bool send(const RequestHead& head, Response answer, const Peer& peer) {
@@ -106,6 +125,7 @@ struct Server::Data {
         if (!coding.empty()) response.fields.emplace_back("Content-Encoding", coding);
         response.fields.insert(response.fields.end(), answer.headers.begin(), answer.headers.end());
         response.keep_alive = head.keep_alive;
+        response.may_be_framed = answer.may_be_framed;
         const OnItsWay counted(on_its_way, answer.bytes.size());
         const bool is_whole = head.method != "HEAD";
         return peer.send(text_of(response), is_whole) && (!is_whole || peer.send(answer.bytes)) && head.keep_alive;
@@ -147,6 +167,9 @@ void Server::prepare(const Context& context) {
     } catch (const std::bad_alloc&) {  // a request tries again
     }
 }
+std::string Server::address_for_one_frame() { return data_->access.address_for_one_frame(); }
+std::string Server::scene() const { return data_->service.scene(); }
+void Server::set_scene(const std::string& text) { data_->service.set_scene(text); }
 void Server::report_progress(const BuildState& state) { data_->service.store_state().report_progress(state); }
 void Server::fail(const Error& error) { data_->service.store_state().fail(error); }
 

@@ -78,6 +78,15 @@ struct AfterResponse {
     void operator()() const { call(connection); }
 };
 
+struct Counted {
+    explicit Counted(std::atomic<int>& of) : count(of), before(of.fetch_add(1)) {}
+    Counted(const Counted&) = delete;
+    Counted& operator=(const Counted&) = delete;
+    ~Counted() { --count; }
+    std::atomic<int>& count;
+    const int before;
+};
+
 /// Closes a connection, which may be closed already.
 void ignore(const error_code&) {}
 
@@ -265,11 +274,40 @@ private:
     void answer(const ConnectionPointer& connection, const RequestHead& head) {
         bool goes_on = false;
         try {
-            goes_on = answers_.answer(head, Peer(connection->socket.native_handle()));
+            goes_on = head.has_body ? is_answered_with_body(*connection, head) : answers_.answer(head, {}, peer_of(*connection));
         } catch (const std::exception&) {  // to this connection only
         }
         const auto then = [this, goes_on](const ConnectionPointer& of) { answered(of, goes_on); };
         asio::post(io_, AfterResponse<decltype(then)>{connection, then});
+    }
+
+    static Peer peer_of(Connection& connection) { return Peer(connection.socket.native_handle()); }
+
+    /// True: the connection may be reused.
+    bool is_answered_with_body(Connection& connection, const RequestHead& head) {
+        const Counted counted(bodies_);
+        if (counted.before >= kMaxBodies) {
+            (void)peer_of(connection).send(answers_.refusal(503));
+            return false;
+        }
+        const std::optional<std::string> body = body_of(connection, head.length.value_or(0));
+        return body && answers_.answer(head, *body, peer_of(connection));
+    }
+
+    /// nullopt: it has not come whole within kBodyTime.
+    static std::optional<std::string> body_of(Connection& connection, std::size_t length) {
+        std::string body = connection.bytes.substr(0, length);
+        connection.bytes.erase(0, body.size());
+        const Clock::time_point until = Clock::now() + kBodyTime;
+        for (std::size_t there = body.size(); there < length;) {
+            const auto left = std::chrono::duration_cast<std::chrono::milliseconds>(until - Clock::now());
+            body.resize(length);
+            const std::ptrdiff_t count =
+                left.count() > 0 ? peer_of(connection).receive(body.data() + there, length - there, static_cast<int>(left.count())) : -1;
+            if (count <= 0) return std::nullopt;
+            there += static_cast<std::size_t>(count);
+        }
+        return body;
     }
 
     void answered(const ConnectionPointer& connection, bool goes_on) {
@@ -287,6 +325,7 @@ private:
     asio::steady_timer timer_{io_};
     bool accepting_ = false, ticking_ = false;
     std::atomic<bool> ended_ = false;
+    std::atomic<int> bodies_ = 0;        ///< requests with a body in progress
     Connected strangers_, idle_, busy_;  ///< in order of arrival
     std::array<char, kLongestHead> scratch_{};
     Workers workers_{kMaxAtOnce};  ///< the last member: its threads end before the others

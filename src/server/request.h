@@ -20,6 +20,7 @@ struct Request {
     std::string client;                             ///< a newer surface request of a client supersedes its older one
     IsDisconnected is_disconnected{};               ///< has the client disconnected?
     bool is_change = false;                         ///< PUT: may change something
+    std::string body{};
     std::optional<Polarity> polarity{};  ///< which objects, the parameter `polarity`; none: of high values if the store holds them
 };
 
@@ -29,6 +30,7 @@ struct Response {
     std::string bytes{};
     std::map<std::string, std::string> headers{};
     std::shared_ptr<EventStream> events{};  ///< instead of bytes: a stream
+    bool may_be_framed = false;             ///< by pages of any site
 };
 
 }  // namespace isoatlas

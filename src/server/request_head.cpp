@@ -16,7 +16,7 @@ class HeadReader::Parser final : public http::basic_parser<true> {
 public:
     Parser() {
         header_limit(kLongestHead);
-        body_limit(std::numeric_limits<std::uint64_t>::max());  // no body is read
+        body_limit(std::numeric_limits<std::uint64_t>::max());  // its caller bounds what it reads of a body
     }
     RequestHead head;
 
@@ -43,6 +43,7 @@ private:
         if (name == http::field::origin) return take_once(head.origin, value, error);
         if (name == http::field::accept_encoding) head.accept_encoding.assign(value.data(), value.size());
         if (boost::beast::iequals(text, "X-Client")) return take_once(head.client, value, error);
+        if (boost::beast::iequals(text, "X-Frame-Key")) return take_once(head.frame_key, value, error);
         if (boost::beast::iequals(text, "Sec-Fetch-Site")) return take_once(head.fetch_site, value, error);
     }
     void on_header_impl(error_code&) override {}
@@ -83,6 +84,7 @@ HeadReader::State HeadReader::read(std::string& bytes) {
     if (!is_whole) return State::more;
     parser_->head.keep_alive = parser_->keep_alive();
     parser_->head.has_body = !parser_->is_done();
+    if (const auto length = parser_->content_length()) parser_->head.length = *length;
     return State::whole;
 }
 

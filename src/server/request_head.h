@@ -1,7 +1,9 @@
 // The head of an HTTP request: parsed incrementally from untrusted bytes in bounded memory. Only fields that the server uses are kept.
 #pragma once
 
+#include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 
 namespace isoatlas {
@@ -13,10 +15,11 @@ constexpr int kMaxFields = 100;
 struct RequestHead {
     std::string method, target;
     // header fields; empty: not sent
-    std::string host, authorization, cookie, client, accept_encoding, origin, fetch_site;
-    bool keep_alive = false;  ///< may the connection be reused?
-    bool is_old = false;      ///< HTTP/1.0: no chunked response
-    bool has_body = false;    ///< a body follows, which is not read
+    std::string host, authorization, cookie, client, accept_encoding, origin, fetch_site, frame_key;
+    bool keep_alive = false;                ///< may the connection be reused?
+    bool is_old = false;                    ///< HTTP/1.0: no chunked response
+    bool has_body = false;                  ///< a body follows
+    std::optional<std::uint64_t> length{};  ///< of the body in bytes; nullopt: not said
 };
 
 /// Reads one head.

@@ -7,13 +7,10 @@ namespace isoatlas {
 namespace {
 
 constexpr std::pair<const char*, const char*> kFields[] = {
-    {"X-Content-Type-Options", "nosniff"},
-    {"Referrer-Policy", "no-referrer"},
-    {"Cache-Control", "no-store"},
-    {"Accept-Ranges", "none"},
-    {"Content-Security-Policy",
-     "default-src 'none'; script-src 'unsafe-inline' 'wasm-unsafe-eval'; style-src 'unsafe-inline'; connect-src 'self'; "
-     "img-src data: blob:; frame-ancestors 'none'; base-uri 'none'; form-action 'none'"}};
+    {"X-Content-Type-Options", "nosniff"}, {"Referrer-Policy", "no-referrer"}, {"Cache-Control", "no-store"}, {"Accept-Ranges", "none"}};
+constexpr std::string_view kPolicy =
+    "default-src 'none'; script-src 'unsafe-inline' 'wasm-unsafe-eval'; style-src 'unsafe-inline'; connect-src 'self'; "
+    "img-src data: blob:; base-uri 'none'; form-action 'none'";
 
 std::string_view reason_of(int status) {
     switch (status) {
@@ -41,6 +38,7 @@ std::string text_of(const ResponseHead& head) {
     std::string text = "HTTP/1.1 " + std::to_string(head.status) + " ";
     (text += reason_of(head.status)) += "\r\n";
     for (const auto& [name, value] : kFields) add(text, name, value);
+    add(text, "Content-Security-Policy", std::string(kPolicy) + (head.may_be_framed ? "" : "; frame-ancestors 'none'"));
     for (const auto& [name, value] : head.fields) add(text, name, value);
     if (!head.type.empty()) add(text, "Content-Type", head.type);
     if (head.length) {

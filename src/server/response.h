@@ -16,7 +16,8 @@ struct ResponseHead {
     std::optional<std::size_t> length = 0;  ///< bytes of the body; nullopt: in chunks, or to the end of the connection (HTTP/1.0)
     std::vector<std::pair<std::string, std::string>> fields{};
     bool keep_alive = false;
-    bool is_old = false;  ///< for HTTP/1.0
+    bool is_old = false;         ///< for HTTP/1.0
+    bool may_be_framed = false;  ///< by pages of any site
 };
 
 /// Includes the empty line at the end and the fields of every response: no store, no referrer, no foreign content, no ranges.

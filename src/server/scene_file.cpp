@@ -9,6 +9,7 @@
 #include "formats/common/file_access.h"
 #include "isoatlas/error.h"
 #include "isoatlas/server.h"
+#include "server/shared_scene.h"
 
 namespace isoatlas {
 namespace {
@@ -104,8 +105,10 @@ std::string size_text(std::span<const std::int64_t> size) {
 
 }  // namespace
 
-SceneFile read_scene(const std::string& path) {
-    const Json json = parsed(path, text_of(path));
+SceneFile read_scene(const std::string& path) { return scene_of(path, text_of(path)); }
+
+SceneFile scene_of(const std::string& path, const std::string& text) {
+    const Json json = parsed(path, text);
     const Members scene(path, json, "");
     scene.at("schema", [](const Json& schema) { return schema == kSchema; }, kSchema);
     const Members volume(path, scene.at("volume", [](const Json& one) { return one.is_object(); }, "an object"), "volume");

@@ -76,9 +76,9 @@ Service::Service(std::string token, const Context& context, const ServiceOptions
       memory_((options.memory > 0 ? options.memory : available_memory() / 4) / kAtOnce),
       store_state_(changes_),
       queues_(changes_),
-      events_(store_state_, queues_, changes_),
-      naming_(options.is_read_only),
-      scene_(scene_json(options.scene)) {
+      scene_(options.scene, changes_),
+      events_(store_state_, queues_, scene_, changes_),
+      naming_(options.is_read_only) {
     context_.progress = {};
     context_.cancelled = [this] { return ended_.load(); };
 }
@@ -88,6 +88,8 @@ void Service::end() {
     queues_.end();
     events_.end();
 }
+
+void Service::set_scene(const std::string& text) { scene_.set(text, store_state_.sides().main.info()); }
 
 Response Service::answer(const Request& request) {
     try {
@@ -124,10 +126,8 @@ Response Service::answer_known(const Request& request) {
         QueryParameters(request.words).reject_unknown();
         return json_answer(known(request).atlas);
     }
-    if (request.path == "/api/scene") {
-        QueryParameters(request.words).reject_unknown();
-        return json_answer(scene_);
-    }
+    if (request.path == "/api/scene")
+        return request.is_change ? scene_.change(request, store_state_.sides().main.info()) : scene_.answer(request);
     if (request.path == "/api/preview") return preview_answer(request);
     if (request.path == "/api/objects") return objects_answer(request);
     if (request.path == "/api/measures") return measures_answer(request);

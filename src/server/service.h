@@ -18,14 +18,15 @@
 //   /api/transfer                           the transfer function that the tree proposes
 //   /api/surfaces?object=REF,...[&contour=REF,...][&format=glb]        several objects, each at its isovalue (server/several_objects.h)
 //   /api/segmentation?object=REF,...[&contour=REF,...][&format=...]    their labels
-//   /api/scene                              where a page begins that is opened without a link to a view
+//   /api/scene                              where a page begins that is opened without a link to a view (server/shared_scene.h)
+//   PUT /api/scene[?after=VERSION]          sets it, and shows it in all frames: the body
 //   /api/names                              names of objects (server/naming.h)
 //   PUT /api/name?object=REF&name=N         gives one
 //
 // polarity=low: any of them of the objects of low values, where the store is open for both polarities; references to several objects may
 // say it one by one: low2. The entries of /api/atlas are of both.
 // tau: in units of the file, as `isoatlas extract --tau`. Everything but the page needs the token; authorisation: server/access_control.h,
-// which answers /open and /enter; server/http.cpp answers /api/address.
+// which answers /open and /enter; server/http.cpp answers /frame and /api/address.
 #pragma once
 
 #include <atomic>
@@ -42,6 +43,7 @@
 #include "server/query_parameters.h"
 #include "server/request.h"
 #include "server/shared_once.h"
+#include "server/shared_scene.h"
 #include "server/store_catalogue.h"
 #include "server/store_state.h"
 #include "server/version_counter.h"
@@ -60,6 +62,10 @@ public:
 
     /// The store of the responses, or its state; nothing is answered before.
     [[nodiscard]] StoreState& store_state() { return store_state_; }
+    /// The text of the scene that pages in frames show; empty: none.
+    [[nodiscard]] std::string scene() const { return scene_.text(); }
+    /// Throws Error: usage, as SharedScene::set(); as StoreState::sides() while there is no store.
+    void set_scene(const std::string& text);
     /// Computes the data that every page requests first, and its first surface, on this thread. Throws Error: as StoreState::atlas(), input
     /// (damaged store), cancelled.
     void prepare(const Context& context);
@@ -114,10 +120,10 @@ private:
     VersionCounter changes_;
     StoreState store_state_;
     JobQueues queues_;
+    SharedScene scene_;
     EventStreams events_;
     Cards cards_;
     Naming naming_;
-    const std::string scene_;  ///< the response to this request
     SharedOnce<StoreCatalogue> known_;
     SharedOnce<WireMesh> first_;  ///< coarse: some ten kilobytes
     std::atomic<bool> ended_ = false;

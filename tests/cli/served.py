@@ -63,10 +63,10 @@ class Viewer:
         except urllib.error.HTTPError as error:
             return error.code, dict(error.headers), error.read()
 
-    def change(self, path, token=None, **headers):
-        """The same for PUT."""
+    def change(self, path, token=None, data=None, **headers):
+        """The same for PUT, with a body."""
         request = self.request(path, token, **headers)
-        request.method = "PUT"
+        request.method, request.data = "PUT", data
         try:
             with urllib.request.urlopen(request, timeout=60) as answer:
                 return answer.status, json.loads(answer.read())

@@ -44,6 +44,14 @@ class Scenes(harness.CliTest):
         told = json.loads(viewer.ask("/api/scene")[2])
         self.assertIsNone(told["scene"])
         self.assert_schema(told, "server-scene")
+        status, told = viewer.change("/api/scene", data=json.dumps(self.scene).encode())
+        self.assertEqual((status, told["version"]), (200, 1))
+        self.assert_schema(told, "server-scene-version")
+        told = json.loads(viewer.ask("/api/scene")[2])
+        self.assertEqual((told["scene"], told["version"]), (self.scene, 1))
+        self.assert_schema(told, "server-scene")
+        self.assertEqual(viewer.change("/api/scene?after=0", data=json.dumps(self.scene).encode())[0], 409)
+        self.assertEqual(viewer.change("/api/scene")[0], 400)
         self.assertEqual(viewer.stop()[0], 0)
 
     def test_a_file_that_is_not_there(self):

@@ -138,6 +138,7 @@ class Attacked(harness.CliTest):
                                   ("endless request line", "GET /", "a" * 65536),
                                   ("endless empty lines", "", "\r\n" * 30000),
                                   ("endless body", f"GET / HTTP/1.1\r\n{self.host()}Content-Length: 99999999999\r\n\r\n", "a" * 65536),
+                                  ("endless scene", f"PUT /api/scene HTTP/1.1\r\n{self.host()}Content-Length: 4000000\r\n\r\n", "a" * 65536),
                                   ("endless chunks", f"GET / HTTP/1.1\r\n{self.host()}Transfer-Encoding: chunked\r\n\r\n", "5\r\nabcde\r\n" * 6000)):
             with self.attack(name) as held:
                 for _ in range(4):
@@ -240,6 +241,10 @@ class Attacked(harness.CliTest):
                              (f"POST /api/atlas HTTP/1.1\r\n{self.host()}{bearer}Content-Length: 99999999999\r\n\r\n", 405),
                              (good + bearer + "Content-Length: 99999999999\r\n\r\n", 413), (good + bearer + "Content-Length: 5\r\n\r\nabcde", 413),
                              (good + bearer + "Transfer-Encoding: chunked\r\n\r\n5\r\nabcde\r\n0\r\n\r\n", 413),
+                             (f"PUT /api/scene HTTP/1.1\r\n{self.host()}{bearer}Content-Length: 4194305\r\n\r\n", 413),
+                             (f"PUT /api/scene HTTP/1.1\r\n{self.host()}{bearer}Transfer-Encoding: chunked\r\n\r\n2\r\n{{}}\r\n0\r\n\r\n", 413),
+                             (f"PUT /api/scene HTTP/1.1\r\n{self.host()}Content-Length: 2\r\n\r\n{{}}", 403),
+                             (f"PUT /api/scene HTTP/1.1\r\n{self.host()}{bearer}Content-Length: 2\r\nConnection: close\r\n\r\n{{}}", 400),
                              (good + bearer + "Expect: 100-continue\r\nContent-Length: 5\r\n\r\n", 413),
                              (good + bearer + "Content-Length: x\r\n\r\n", 400), (good + bearer + "Content-Length: 0\r\nConnection: close\r\n\r\n", 200),
                              (good + bearer + "X: y\r\n" * 200 + "\r\n", 431), (good + bearer + "X: " + "y" * 17000 + "\r\n\r\n", 431),

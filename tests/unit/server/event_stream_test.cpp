@@ -6,6 +6,8 @@
 #include <nlohmann/json.hpp>
 #include <thread>
 
+#include "server/shared_scene.h"
+
 namespace isoatlas {
 namespace {
 
@@ -26,7 +28,8 @@ protected:
     VersionCounter changes_;
     StoreState store_state_{changes_};
     JobQueues queues_{changes_};
-    EventStreams streams_{store_state_, queues_, changes_};
+    SharedScene scene_{{}, changes_};
+    EventStreams streams_{store_state_, queues_, scene_, changes_};
 };
 
 TEST_F(EventStreamTest, TellsOfTheBuild) {
