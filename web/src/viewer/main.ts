@@ -23,6 +23,7 @@ import { EmptyHint } from "./panels/empty_hint";
 import { ObjectPanel } from "./panels/object_panel";
 import { ExportDialog } from "./export/export_dialog";
 import { readScene } from "./export/scene_file";
+import { SceneChannel } from "./export/scene_channel";
 import { PanelSwitch } from "./panels/panel_switch";
 import { Scene } from "./scene/scene";
 import { addSceneActions } from "./panels/scene_actions";
@@ -33,7 +34,7 @@ import { addIsovalueSteps } from "./panels/isovalue_steps";
 import { firstToShow } from "../shared/cards";
 import { addThemeAction } from "./context/theme";
 import { Tour } from "./tour";
-import { ownKey, waitForPage } from "./waiting";
+import { ownKey, takeFrameKey, waitForPage } from "./waiting";
 import "./viewer.css";
 import "./panels/scene.css";
 import "./panels/panel_switch.css";
@@ -102,7 +103,7 @@ class Viewer implements ViewerContext {
       this.notify("No objects to show: all of them are below noise level.");
     }
     api.connection.onChange(() => this.followConnection());
-    tour.begin();
+    if (!api.isInFrame) tour.begin();
   }
 
   /** Requests what failed while there was no connection. */
@@ -166,30 +167,33 @@ function firstOf(page: Page, hash: string): number {
 }
 
 /** That of the address; else that of the scene with which the server was started. */
-async function firstState(api: Api, page: Page, catalogue: Catalogue): Promise<{ state: State | null; problem: string }> {
-  const scene = location.hash === "" ? await api.scene() : null;
-  if (!scene) return { state: fromHash(location.hash, numbersOf(page)), problem: "" };
+async function firstState(api: Api, page: Page, catalogue: Catalogue): Promise<{ state: State | null; problem: string; version: number }> {
+  const { text, file, version } = location.hash === "" ? await api.scene() : { text: "", file: "", version: 0 };
+  if (text === "") return { state: fromHash(location.hash, numbersOf(page)), problem: "", version };
   try {
     catalogue.load(await api.branches(MAX_LISTED)); // it may show any of the objects
-    return { state: readScene(page, scene.text), problem: "" };
+    return { state: readScene(page, text), problem: "", version };
   } catch (error) {
-    return { state: null, problem: `${scene.file} is not shown. ${error instanceof Error ? error.message : String(error)}` };
+    const name = file === "" ? "The scene" : file;
+    return { state: null, problem: `${name} is not shown. ${error instanceof Error ? error.message : String(error)}`, version };
   }
 }
 
 async function start(main: HTMLElement): Promise<void> {
-  const api = new Api(ownKey());
+  const api = new Api(ownKey(), ".", takeFrameKey());
   try {
     const page = await waitForPage(api, main);
     document.title = `${page.volume.name} – isoatlas`;
     if (page.volume.size.length !== 3)
       throw new Error("The viewer needs a 3D volume. For a 2D image, run isoatlas with the name of its file to write a page.");
     const catalogue = new Catalogue(page);
-    const { state, problem } = await firstState(api, page, catalogue);
+    const { state, problem, version } = await firstState(api, page, catalogue);
     if (state && needsAll(page, state) && !catalogue.isLoaded) catalogue.load(await api.branches(MAX_LISTED));
     const viewer = new Viewer(api, page, catalogue, state, main);
     if (problem !== "") viewer.notify(problem);
-    await viewer.loadCatalogue();
+    const allKnown = viewer.loadCatalogue();
+    if (api.isInFrame) new SceneChannel(viewer, version, allKnown).begin();
+    await allKnown;
   } catch (error) {
     main.append(html("p", { role: "alert" }, error instanceof Error ? error.message : String(error)));
   }

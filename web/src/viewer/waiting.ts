@@ -8,7 +8,10 @@ const RETRY_DELAY = 2000;
 /** no indicator for faster responses, in milliseconds */
 const BUSY_DELAY = 400;
 
-function connectionErrorText(error: unknown): string {
+function connectionErrorText(error: unknown, isInFrame: boolean): string {
+  if (isInFrame && !(error instanceof ServerError && error.status !== 403)) {
+    return "Connection lost: the notebook has closed this view or has ended. Run its cell again.";
+  }
   if (!(error instanceof ServerError)) {
     return "Connection lost: isoatlas view has ended. When it runs again, this page continues.";
   }
@@ -24,6 +27,13 @@ export function ownKey(): string {
   } catch {
     return ""; // storage is disabled; the server responds with an explanation
   }
+}
+
+/** The key of a page in a frame, from its head, where it does not stay; empty: the page is in a tab. */
+export function takeFrameKey(): string {
+  const key = document.querySelector<HTMLMetaElement>("meta[name=isoatlas-frame]");
+  key?.remove();
+  return key?.content ?? "";
 }
 
 /** Equal for pages that call the same objects by the same numbers. */
@@ -43,6 +53,7 @@ class LoadingCard {
 
   constructor(
     main: HTMLElement,
+    private readonly isInFrame: boolean,
     private readonly onOpen: () => void,
   ) {
     document.body.append(this.note, this.busy);
@@ -93,7 +104,7 @@ class LoadingCard {
     this.wait("");
     if (error instanceof ServerError) this.end();
     this.note.hidden = false;
-    this.note.textContent = connectionErrorText(error);
+    this.note.textContent = connectionErrorText(error, this.isInFrame);
   }
 
   private wait(text: string): void {
@@ -116,11 +127,12 @@ export async function waitForPage(api: Api, main: HTMLElement): Promise<Page> {
   let waiting: LoadingCard | undefined;
   let identity = "";
   await new Promise<void>((resolve) => {
-    const own = (waiting = new LoadingCard(main, resolve));
+    const own = (waiting = new LoadingCard(main, api.isInFrame, resolve));
     const listen = async (): Promise<void> => {
       try {
         for await (const state of api.events()) {
           own.show(state);
+          api.connection.setScene(state.scene);
           if (state.state === "open" && api.connection.state !== "up") await reconnect(api, own, identity);
         }
         own.disconnected(null);

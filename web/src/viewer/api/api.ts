@@ -75,6 +75,17 @@ export class ServerError extends Error {
   }
 }
 
+/** The scene of the server, as JSON; empty: none. */
+export interface SharedScene {
+  text: string;
+  /** name of its file, where it has one */
+  file: string;
+  /** 0: the server was started with it */
+  version: number;
+  /** whether this page has set it */
+  isOwn: boolean;
+}
+
 /** There is no connection to the server, which the page says once (waiting.ts). */
 export class ConnectionError extends Error {
   constructor() {
@@ -90,15 +101,23 @@ export function failureText(error: unknown): string {
 
 export class Api {
   readonly connection = new Connection();
-  private readonly client = crypto.randomUUID();
+  private readonly client = randomName();
   private surfaces = 0;
   private readonly channels = new Map<string, AbortController>();
 
   constructor(
     /** of this browser, or the token of a program */
     private token: string,
-    private readonly base = "",
+    /** before the path of each request: those of a page are beside it, also where a proxy serves it below a path of its own */
+    private readonly base = ".",
+    /** of a page in a frame, instead of cookie and token; empty: it is in a tab */
+    private readonly frameKey = "",
   ) {}
+
+  /** Is the page in a frame of another one, with which it shares its scene? */
+  get isInFrame(): boolean {
+    return this.frameKey !== "";
+  }
 
   /** Another tab may have got another key, from a server that runs again. */
   takeKey(key: string): void {
@@ -111,10 +130,17 @@ export class Api {
     return page;
   }
 
-  /** The scene that the server was started with, as text, and the name of its file; null: none. */
-  async scene(): Promise<{ file: string; text: string } | null> {
-    const { scene, file } = (await (await this.request("/api/scene", "scene")).json()) as { scene: unknown; file?: string };
-    return scene === null ? null : { file: file ?? "", text: JSON.stringify(scene) };
+  /** The scene with which the server was started, or which was set since. */
+  async scene(): Promise<SharedScene> {
+    const told = (await (await this.request("/api/scene", "scene")).json()) as ServerScene;
+    const text = told.scene === null ? "" : JSON.stringify(told.scene);
+    return { text, file: told.file, version: told.version, isOwn: told.client === this.client };
+  }
+
+  /** Sets it; returns its version. Rejected with 409 where it is not `after` any more. */
+  async setScene(text: string, after: number): Promise<number> {
+    const response = await this.request(`/api/scene?after=${after}`, "set scene", "PUT", text);
+    return ((await response.json()) as { version: number }).version;
   }
 
   /** The objects of highest rank, at most `top`. */
@@ -203,8 +229,8 @@ export class Api {
 
   /** The state of the server and the pending requests of this page, on every change, until the connection ends. */
   async *events(): AsyncGenerator<ServerState> {
-    const headers = { Authorization: `Bearer ${this.token}`, "X-Client": this.client };
-    const response = await fetch(`${this.base}/api/events`, { headers });
+    const headers = { ...this.authorisation, "X-Client": this.client, Accept: "text/event-stream" }; // jupyter-server-proxy streams such
+    const response = await fetch(this.base + "/api/events", { headers });
     if (!response.ok || !response.body) throw new ServerError(response.status, await messageOf(response));
     yield* messages(response.body);
   }
@@ -221,19 +247,37 @@ export class Api {
     this.channels.delete(channel);
   }
 
-  async request(path: string, channel: string, method = "GET"): Promise<Response> {
+  private get authorisation(): Record<string, string> {
+    return this.isInFrame ? { "X-Frame-Key": this.frameKey } : { Authorization: `Bearer ${this.token}` };
+  }
+
+  async request(path: string, channel: string, method = "GET", body?: string): Promise<Response> {
     this.abort(channel);
     if (this.connection.problem !== "" && channel !== PAGE_CHANNEL) throw new ConnectionError(); // it might reach another volume
     const controller = new AbortController();
     this.channels.set(channel, controller);
-    const headers = { Authorization: `Bearer ${this.token}`, "X-Client": `${this.client}/${channel}` };
+    const headers = { ...this.authorisation, "X-Client": `${this.client}/${channel}` };
     const priority = channel === PREVIEW_CHANNEL ? "high" : "auto"; // browsers limit the number of parallel requests to a server
-    const response = await fetch(this.base + path, { method, headers, signal: controller.signal, priority }).catch((error: unknown) => {
+    const options = { method, headers, body, signal: controller.signal, priority } as const;
+    const response = await fetch(this.base + path, options).catch((error: unknown) => {
       throw error instanceof TypeError ? new ConnectionError() : error; // a TypeError: the network
     });
     if (!response.ok) throw new ServerError(response.status, await messageOf(response));
     return response;
   }
+}
+
+/** docs/schema/server-scene.schema.json */
+interface ServerScene {
+  version: number;
+  client: string;
+  file: string;
+  scene: unknown;
+}
+
+/** crypto.randomUUID() is missing where the page around a frame has neither https nor a local address. */
+function randomName(): string {
+  return Array.from(crypto.getRandomValues(new Uint8Array(16)), (byte) => byte.toString(16).padStart(2, "0")).join("");
 }
 
 export type SeveralKind = "surfaces" | "segmentation";

@@ -7,7 +7,10 @@ export class Connection {
   private now: ConnectionState = "up";
   /** connections so far: what failed in an earlier one is requested again */
   count = 1;
+  /** version of the scene of the server */
+  scene = 0;
   private readonly listeners: (() => void)[] = [];
+  private readonly sceneListeners: ((version: number) => void)[] = [];
 
   get state(): ConnectionState {
     return this.now;
@@ -27,5 +30,15 @@ export class Connection {
 
   onChange(listener: () => void): void {
     this.listeners.push(listener);
+  }
+
+  setScene(version: number): void {
+    if (version === this.scene) return;
+    this.scene = version;
+    this.sceneListeners.forEach((listener) => listener(version));
+  }
+
+  onScene(listener: (version: number) => void): void {
+    this.sceneListeners.push(listener);
   }
 }

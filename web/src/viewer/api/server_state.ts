@@ -24,6 +24,8 @@ export interface ServerState {
   state: "building" | "open" | "failed";
   build?: Build;
   error?: { message: string; what: string; next: string };
+  /** the version of the shared scene */
+  scene: number;
   requests: PendingRequest[];
 }
 

@@ -86,15 +86,17 @@ export class Exporter {
   }
 
   copy(text: string, what: string): Promise<void> {
-    return navigator.clipboard.writeText(text).then(
+    const access = navigator.clipboard as Clipboard | undefined; // none in a frame of a page that has neither https nor a local address
+    return (access?.writeText(text) ?? Promise.reject(new Error())).then(
       () => this.context.notify(`${what} copied to the clipboard`),
       () => this.context.notify(`no access to the clipboard: ${text}`),
     );
   }
 
-  /** Link to this view, for this browser: it contains no token. */
+  /** Link to this view, for this browser: it contains no token. The address of a frame is of no use to another page. */
   link(): Promise<void> {
-    return this.copy(location.href, "the link");
+    const own = this.context.api.isInFrame ? new URL(`.${location.hash}`, location.href).href : location.href;
+    return this.copy(own, "the link");
   }
 
   command(): string {

@@ -8,7 +8,7 @@ import type { Shown, State } from "../state/state";
 const SCHEMA = "isoatlas/scene/1";
 
 /** Text of the file. Objects are identified by their representative voxel in the store, independent of list order. */
-export function writeScene(page: Page, state: State): string {
+export function writeScene(page: Page, state: State, indent = 2): string {
   const shown = state.shown.map((one) => ({
     id: one.entry < 0 ? null : entryOf(page, one.entry).id,
     name: titleOf(page, one.entry),
@@ -16,7 +16,7 @@ export function writeScene(page: Page, state: State): string {
   }));
   const { name, size } = page.volume;
   const { selected, view, parts } = state;
-  return `${JSON.stringify({ schema: SCHEMA, volume: { name, size }, shown, selected, view, parts }, null, 2)}\n`;
+  return `${JSON.stringify({ schema: SCHEMA, volume: { name, size }, shown, selected, view, parts }, null, indent)}\n`;
 }
 
 /** Throws Error: what is wrong, where, and what was expected. */
