@@ -417,10 +417,10 @@ class Atlas:
         """
         return checked(self._source.verify(levels, full, seed, call(progress, threads)), strict)
 
-    def view(self, *, port: int = 0) -> View:
-        """The navigator, in a browser tab: see :class:`isoatlas.View`."""
+    def view(self, *, height: int = 600, port: int = 0) -> View:
+        """The navigator, in the cell of a notebook or in a browser tab: see :class:`isoatlas.View`."""
         from ._view import View
-        return View(self, port=port)
+        return View(self, height=height, port=port)
 
 
 def _open_again(source: Any, options: dict[str, Any]) -> Atlas:

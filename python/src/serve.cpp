@@ -36,6 +36,9 @@ public:
     [[nodiscard]] std::string address() const { return server_.address(); }
     [[nodiscard]] std::string token() const { return server_.token(); }
     [[nodiscard]] std::string address_for_one_use() { return server_.address_for_one_use(); }
+    [[nodiscard]] std::string address_for_one_frame() { return server_.address_for_one_frame(); }
+    [[nodiscard]] std::string scene() const { return server_.scene(); }
+    void set_scene(const std::string& text) { server_.set_scene(text); }
 
 private:
     Atlas atlas_;
@@ -57,5 +60,8 @@ PYBIND11_MODULE(_serve, module) {
         .def("close", &Viewer::close, released)
         .def_property_readonly("address", &Viewer::address)
         .def_property_readonly("token", &Viewer::token)
-        .def("address_for_one_use", &Viewer::address_for_one_use, released);
+        .def("address_for_one_use", &Viewer::address_for_one_use, released)
+        .def("address_for_one_frame", &Viewer::address_for_one_frame, released)
+        .def("scene", &Viewer::scene, released)
+        .def("set_scene", &Viewer::set_scene, py::arg("text"), released);
 }
