@@ -154,8 +154,9 @@ class SimplifiedTree(Columns):
 
     def zones(self, *, progress: Progress = None, threads: int = 0) -> Array:
         """The node of every voxel, plus 1: (z, y, x) uint32, as ``isoatlas label --zones`` with a selection."""
-        zones = self._atlas.zones(progress=progress, threads=threads)
-        return (self.node_of_event + 1).astype(np.uint32)[zones - 1]
+        node: Array = (self.node_of_event + 1).astype(np.uint32)
+        nodes: Array = node[self._atlas.zones(progress=progress, threads=threads) - 1]
+        return nodes
 
     def save(self, path: Path) -> None:
         """Writes .json, .graphml, .csv or .vtu, as ``isoatlas tree`` with a selection."""
