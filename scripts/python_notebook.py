@@ -19,6 +19,7 @@ BEFORE = """import isoatlas
 isoatlas.write("scan.nii.gz", isoatlas.phantom("demo"), spacing=(0.5, 0.5, 0.5), unit="mm")"""
 # The line of README.md after which a cell of its own shows something, and that cell.
 SHOWN = {
+    "view.selected": "view.selected, view.tau",
     "mesh = ": "mesh",
     "labels = ": "import numpy\nnumpy.bincount(labels.ravel())",
     "graph, pairs = ": "print(graph)\npairs",

@@ -91,7 +91,7 @@ def build_wheel(wheel_directory, config_settings=None, metadata_directory=None):
 
         built(dict(config_settings or {}), stage)
         for path in sorted(pathlib.Path(stage).rglob("*")):
-            if path.is_file():
+            if path.is_file() and not path.parent.name.endswith(".dist-info"):  # that of `make install`; a wheel has its own
                 add(path.relative_to(stage).as_posix(), path.read_bytes(), 0o755 if path.suffix == ".so" else 0o644)
         add(f"{NAME}.dist-info/METADATA", metadata().encode())
         add(f"{NAME}.dist-info/WHEEL", f"Wheel-Version: 1.0\nGenerator: isoatlas {VERSION}\nRoot-Is-Purelib: false\nTag: {tag()}\n".encode())

@@ -18,7 +18,7 @@ using mesh_samples::read_bytes;
 namespace {
 
 void write(const std::string& path, const std::vector<double>& taus) {
-    const Volume volume = make_phantom("demo", {.size = 24});
+    const Volume volume = make_phantom("demo", {.size = 32});
     EvolutionFile file(path);
     for (const double tau : taus) file.add(extract(volume, tau));
     EXPECT_EQ(file.steps(), static_cast<std::int64_t>(taus.size()));

@@ -141,7 +141,7 @@ TEST(write_surface, curves_go_to_ply_obj_and_vtp_only) {
             FAIL() << extension;
         } catch (const Error& error) {
             EXPECT_EQ(error.kind(), ErrorKind::usage);
-            EXPECT_EQ(error.text().next, "write .ply, .obj or .vtp");
+            EXPECT_EQ(error.text().next, "write .ply, .obj, .vtp or .vtkhdf");
         }
     }
     EXPECT_EQ(folder.files(), 3U);
