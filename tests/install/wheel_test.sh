@@ -58,7 +58,7 @@ assert pathlib.Path("evolution.vtkhdf").read_bytes()[:4] == b"\x89HDF"
 picture = isoatlas.render(mesh, size=(64, 48), samples=1)
 assert np.asarray(picture).shape[:2] == (48, 64) and np.asarray(picture).std() > 0
 with atlas.view() as view:
-    page = urllib.request.urlopen(view._viewer.address + "/").read()
+    page = urllib.request.urlopen(view._viewer.address_for_one_frame()).read()
     assert page.lstrip().lower().startswith(b"<!doctype html") and len(page) > 100_000, page[:200]
     assert view.request("/api/objects?tau=120")["count"] > 0
 print("isoatlas", isoatlas.__version__, "of the wheel:", repr(mesh))

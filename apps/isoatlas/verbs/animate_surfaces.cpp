@@ -16,7 +16,7 @@ struct Step {
     std::int64_t points, triangles, segments;
 };
 
-void check_arguments(const Arguments& arguments) {
+void check_steps(const Arguments& arguments) {
     const AnimationArguments& wanted = arguments.picture.animation;
     if (!wanted.from || !wanted.to) {
         throw Error(ErrorKind::usage, {.file = arguments.output,
@@ -79,7 +79,7 @@ void print_text(const Arguments& arguments, Terminal& terminal, Source& source, 
 }  // namespace
 
 int animate_surfaces(const Arguments& arguments, Terminal& terminal, const std::function<std::vector<double>(Source&)>& isovalues) {
-    check_arguments(arguments);
+    check_steps(arguments);
     Sides sides(arguments, terminal);
     Source& source = sides.main();
     const std::vector<Step> steps = write_steps(arguments, source, ascending(isovalues(source), Scale(source.info())));
