@@ -324,7 +324,8 @@ void Hdf5Layout::add_texts(const std::string& name, std::span<const std::string>
     data_->add_groups(name);
     H5Pset_obj_track_times(creation, 0);
     const Handle set(H5Dcreate2(data_->file, name.c_str(), type, space, H5P_DEFAULT, creation, H5P_DEFAULT), H5Dclose);
-    if (set < 0 || H5Dwrite(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, pointers.data()) < 0) data_->no_memory("the texts " + name);
+    const void* const bytes = static_cast<const void*>(pointers.data());
+    if (set < 0 || H5Dwrite(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, bytes) < 0) data_->no_memory("the texts " + name);
 }
 
 void Hdf5Layout::set_attribute(const std::string& group, const char* name, std::span<const std::int64_t> numbers) {
