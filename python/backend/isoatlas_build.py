@@ -79,6 +79,19 @@ def built(settings, stage):
         subprocess.run(["strip", "--strip-unneeded", *pathlib.Path(stage).glob("isoatlas/*.so")], check=True)
 
 
+def about_wheel():
+    return f"Wheel-Version: 1.0\nGenerator: isoatlas {VERSION}\nRoot-Is-Purelib: false\nTag: {tag()}\n"
+
+
+def prepare_metadata_for_build_wheel(metadata_directory, config_settings=None):
+    """So that pip knows what is needed before it builds."""
+    folder = pathlib.Path(metadata_directory) / f"{NAME}.dist-info"
+    folder.mkdir()
+    for file, text in (("METADATA", metadata()), ("WHEEL", about_wheel()), ("entry_points.txt", entry_points())):
+        (folder / file).write_text(text, encoding="utf-8")
+    return folder.name
+
+
 def build_wheel(wheel_directory, config_settings=None, metadata_directory=None):
     name, records = f"{NAME}-{tag()}.whl", []
     with tempfile.TemporaryDirectory() as stage, zipfile.ZipFile(os.path.join(wheel_directory, name), "w", zipfile.ZIP_DEFLATED) as wheel:
@@ -94,7 +107,7 @@ def build_wheel(wheel_directory, config_settings=None, metadata_directory=None):
             if path.is_file() and not path.parent.name.endswith(".dist-info"):  # that of `make install`; a wheel has its own
                 add(path.relative_to(stage).as_posix(), path.read_bytes(), 0o755 if path.suffix == ".so" else 0o644)
         add(f"{NAME}.dist-info/METADATA", metadata().encode())
-        add(f"{NAME}.dist-info/WHEEL", f"Wheel-Version: 1.0\nGenerator: isoatlas {VERSION}\nRoot-Is-Purelib: false\nTag: {tag()}\n".encode())
+        add(f"{NAME}.dist-info/WHEEL", about_wheel().encode())
         add(f"{NAME}.dist-info/entry_points.txt", entry_points().encode())
         add(f"{NAME}.dist-info/LICENSE", (ROOT / "LICENSE").read_bytes())
         record = f"{NAME}.dist-info/RECORD"
