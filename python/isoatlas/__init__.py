@@ -26,7 +26,8 @@ __version__: str = _core.version
 
 __all__ = ["Atlas", "Check", "Columns", "Error", "Handles", "InputError", "InternalError", "Isovalue", "Mesh", "NotFoundError", "Object",
            "ResourceError", "SimplifiedTree", "Spectrum", "Table", "Tree", "UnsupportedError", "VerificationError", "View", "betti", "build",
-           "euler_number", "info", "label", "label_regions", "label_surface", "marching_cubes", "open", "phantom", "phantoms", "read", "read_mesh", "render", "save_animation", "save_image",
+           "euler_number", "info", "label", "label_regions", "label_surface", "marching_cubes", "open", "phantom", "phantoms", "read",
+           "read_mesh", "render", "save_animation", "save_image",
            "save_meshes", "verify", "write"]
 
 

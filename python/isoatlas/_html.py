@@ -10,6 +10,8 @@ from typing import TYPE_CHECKING, Any, Sequence
 
 import numpy as np
 
+from . import _names
+
 if TYPE_CHECKING:
     from ._atlas import Atlas
     from ._objects import Object
@@ -57,10 +59,10 @@ def table(objects: Sequence[Object], atlas: Atlas, pictures: int = PICTURES) -> 
     low, high = atlas.range
     unit = html.escape(atlas.info["measure_unit"])
     heads = ["", "#", "best tau", "range of values", "voxels", unit, "tunnels", "cavities", "why"]
-    rows = []
+    rows, names = [], _names.names_of_lines(atlas)
     for i, one in enumerate(objects):
         note = html.escape(", ".join(filter(None, (one.why or one.reason, one.note))))
-        title = html.escape(" ".join(filter(None, (one.reference, one.name))))
+        title = html.escape(" ".join(filter(None, (one.reference, names.get(_names.key_of(one))))))
         cells = [_picture(one, atlas) if i < pictures else "", title, f"{one.best_tau:g}", _range_bar(one, low, high),
                  f"{one.voxels:,}", f"{one.measure:,.4g}", str(one.tunnels or "-"), str(one.cavities or "-"), note]
         rows.append("<tr>" + "".join(f"<td>{cell}</td>" for cell in cells) + "</tr>")

@@ -30,16 +30,17 @@ def names_of(atlas: Atlas) -> list[Named]:
     if not atlas.is_store:
         return []
     given = _core.names(atlas._source)
-    lines = {(one.id, one.best_tau, is_cavity): one for is_cavity in {name[3] for name in given} for one in atlas._numbered(is_cavity)}
+    lines = {key_of(one): one for is_cavity in {name[3] for name in given} for one in atlas._numbered(is_cavity)}
     return [Named(name, voxel, isovalue, is_cavity, lines.get((voxel, isovalue, is_cavity))) for name, voxel, isovalue, is_cavity in given]
 
 
-def name_of(one: Object) -> Optional[str]:
-    """The name of a line of the table."""
-    if not one._atlas.is_store:
-        return None
-    key = (one.id, one.best_tau, one.is_cavity)
-    return next((name for name, *given in _core.names(one._atlas._source) if tuple(given) == key), None)
+def names_of_lines(atlas: Atlas) -> dict[tuple[int, float, bool], str]:
+    """By id, best isovalue and side of a line. Reads the file: once for a table."""
+    return {(voxel, isovalue, is_cavity): name for name, voxel, isovalue, is_cavity in _core.names(atlas._source)} if atlas.is_store else {}
+
+
+def key_of(one: Object) -> tuple[int, float, bool]:
+    return one.id, one.best_tau, one.is_cavity
 
 
 def named(atlas: Atlas, name: str) -> Object:

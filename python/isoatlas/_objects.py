@@ -89,7 +89,7 @@ class Object:
     @property
     def name(self) -> Optional[str]:
         """The name that it was given in a store: see :meth:`Atlas.give_name`."""
-        return _names.name_of(self)
+        return _names.names_of_lines(self._atlas).get(_names.key_of(self))
 
     @property
     def reference(self) -> str:

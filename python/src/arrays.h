@@ -50,14 +50,14 @@ pybind11::array view_of(Vector& vector, pybind11::handle owner) {
     return pybind11::array(pybind11::dtype::of<typename Row::Number>(), shape, numbers, owner);
 }
 
-/// The vector itself as an array of this shape; nothing is copied.
+/// The vector itself as an array; nothing is copied. shape: of a vector of numbers; empty: as view_of().
 template <class Vector>
 pybind11::array moved_array(Vector&& vector, Shape shape = {}) {
-    using Number = typename std::decay_t<Vector>::value_type;
     auto* kept = new std::decay_t<Vector>(std::forward<Vector>(vector));
     const pybind11::capsule owner(kept, [](void* memory) { delete static_cast<std::decay_t<Vector>*>(memory); });
-    if (shape.empty()) shape = {static_cast<pybind11::ssize_t>(kept->size())};
-    return pybind11::array(pybind11::dtype::of<Number>(), shape, kept->data(), owner);
+    if (shape.empty()) return view_of(*kept, owner);
+    using Number = typename RowOf<typename std::decay_t<Vector>::value_type>::Number;
+    return pybind11::array(pybind11::dtype::of<Number>(), shape, reinterpret_cast<const Number*>(kept->data()), owner);
 }
 
 }  // namespace isoatlas::python

@@ -43,25 +43,19 @@ void give_name(const std::shared_ptr<Source>& source, const std::string& name, s
     write_object_names(file_of(info), info.extent, all);
 }
 
-py::array rows(const std::vector<std::array<std::int64_t, 3>>& given) {
-    std::vector<std::int64_t> flat;
-    for (const auto& row : given) flat.insert(flat.end(), row.begin(), row.end());
-    return moved_array(std::move(flat), {static_cast<py::ssize_t>(given.size()), 3});
-}
-
 py::dict label_regions(const std::shared_ptr<Volume>& volume, const std::string& interpolant, const CallOptions& call) {
     const LabelOptions options{.interpolant = interpolant_of(interpolant)};
     const LabelTable table = long_call(call, [=](const Context& context) { return list_labels(*volume, options, context); });
     std::vector<std::int64_t> label, voxels, components, tunnels, cavities;
-    std::vector<double> measure, position;
+    std::vector<double> measure;
     std::vector<std::array<std::int64_t, 3>> low, high;
+    std::vector<Vec3> position;
     for (const LabelRegion& region : table.regions) {
         label.push_back(region.label), voxels.push_back(region.voxels), measure.push_back(region.measure);
         components.push_back(region.components), tunnels.push_back(region.tunnels), cavities.push_back(region.cavities);
         low.push_back({region.box_low[0], region.box_low[1], region.box_low[2]});
         high.push_back({region.box_high[0], region.box_high[1], region.box_high[2]});
-        const Vec3 at = to_physical(volume->info.geometry, region.position);
-        position.insert(position.end(), at.begin(), at.end());
+        position.push_back(to_physical(volume->info.geometry, region.position));
     }
     py::dict dict;
     dict["label"] = moved_array(std::move(label));
@@ -70,9 +64,9 @@ py::dict label_regions(const std::shared_ptr<Volume>& volume, const std::string&
     dict["components"] = moved_array(std::move(components));
     dict["tunnels"] = moved_array(std::move(tunnels));
     dict["cavities"] = moved_array(std::move(cavities));
-    dict["box_low"] = rows(low);
-    dict["box_high"] = rows(high);
-    dict["position"] = moved_array(std::move(position), {static_cast<py::ssize_t>(table.regions.size()), 3});
+    dict["box_low"] = moved_array(std::move(low));
+    dict["box_high"] = moved_array(std::move(high));
+    dict["position"] = moved_array(std::move(position));
     return dict;
 }
 

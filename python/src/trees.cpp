@@ -54,13 +54,6 @@ EventColumns columns_of(const VolumeInfo& info, const Analysis& analysis) {
     return columns;
 }
 
-py::array rows_array(const std::vector<std::array<double, 3>>& rows) {
-    Numbers flat;
-    flat.reserve(3 * rows.size());
-    for (const auto& row : rows) flat.insert(flat.end(), row.begin(), row.end());
-    return moved_array(std::move(flat), {static_cast<py::ssize_t>(rows.size()), 3});
-}
-
 py::dict tree_arrays(const std::shared_ptr<Source>& source, const CallOptions& call) {
     EventColumns columns = long_call(call, [=](const Context& context) { return columns_of(source->info(), *source->trees(context)); });
     py::dict dict;
@@ -75,8 +68,8 @@ py::dict tree_arrays(const std::shared_ptr<Source>& source, const CallOptions& c
     dict["tunnels"] = moved_array(std::move(columns.tunnels));
     dict["cavities"] = moved_array(std::move(columns.cavities));
     dict["contours"] = moved_array(std::move(columns.contours));
-    dict["voxel"] = rows_array(columns.voxel);
-    dict["position"] = rows_array(columns.position);
+    dict["voxel"] = moved_array(std::move(columns.voxel));
+    dict["position"] = moved_array(std::move(columns.position));
     return dict;
 }
 
@@ -113,16 +106,10 @@ py::dict contour_arrays(const std::shared_ptr<Source>& source, const CallOptions
     return dict;
 }
 
-py::array pairs_array(const std::vector<std::array<double, 2>>& pairs) {
-    Numbers flat;
-    for (const auto& [born, dies] : pairs) flat.push_back(born), flat.push_back(dies);
-    return moved_array(std::move(flat), {static_cast<py::ssize_t>(pairs.size()), 2});
-}
-
 /// find: pair_objects or pair_cavities.
 template <class Pair>
 py::array pairs_of(const std::shared_ptr<Source>& source, std::vector<Pair> (*find)(const Analysis&), const CallOptions& call) {
-    return pairs_array(long_call(call, [=](const Context& context) {
+    return moved_array(long_call(call, [=](const Context& context) {
         std::vector<std::array<double, 2>> pairs;
         const Calibration& calibration = source->info().calibration;
         for (const Pair& pair : find(*source->trees(context)))
@@ -162,9 +149,9 @@ py::dict handles(const std::shared_ptr<Source>& source, bool exact, double min_p
         open.push_back(handle.is_open ? 1 : 0);
     }
     py::dict dict;
-    dict["pairs"] = pairs_array(pairs);
-    dict["opened_at"] = rows_array(opened);
-    dict["closed_at"] = rows_array(closed);
+    dict["pairs"] = moved_array(std::move(pairs));
+    dict["opened_at"] = moved_array(std::move(opened));
+    dict["closed_at"] = moved_array(std::move(closed));
     dict["is_open"] = moved_array(std::move(open));
     return dict;
 }
