@@ -47,6 +47,8 @@ void check_file_system(const std::string& output) {
 
 }  // namespace
 
+std::string lower_extension(const std::string& path) { return lower(fs::path(path).extension().string()); }
+
 double machine_memory() {
     const long pages = ::sysconf(_SC_PHYS_PAGES), page = ::sysconf(_SC_PAGE_SIZE);
     return pages > 0 && page > 0 ? static_cast<double>(pages) * static_cast<double>(page) : INFINITY;

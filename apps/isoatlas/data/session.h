@@ -56,6 +56,9 @@ struct Cost {
 /// The geometry of --voxel.
 [[nodiscard]] Geometry voxel_geometry();
 
+/// With its dot, in lower case; empty: there is none.
+[[nodiscard]] std::string lower_extension(const std::string& path);
+
 /// Checks the output path before the long work: unknown extension, missing or unwritable folder, output equal to the input.
 void check_output(const Arguments& arguments, const std::vector<std::string>& extensions);
 /// The same for an output other than that of -o.

@@ -1,6 +1,5 @@
 // isoatlas animate: a turntable of objects, or their evolution while the isovalue changes.
 #include <algorithm>
-#include <filesystem>
 #include <map>
 
 #include <fmt/format.h>
@@ -93,12 +92,6 @@ std::vector<std::string> caption(const Frame& frame, const Frame* before, const 
                 part_text(kept.tunnels, frame.all.tunnels, "tunnel", "tunnels") + ", " +
                 part_text(kept.cavities, frame.all.cavities, "cavity", "cavities"),
             "isovalue " + scale.brief(frame.tau)};
-}
-
-bool has_surfaces(const std::string& output) {
-    std::string extension = std::filesystem::path(output).extension().string();
-    for (char& c : extension) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-    return extension == ".vtkhdf";
 }
 
 std::vector<double> isovalues(const Arguments& arguments, Source& source) {
@@ -202,7 +195,7 @@ int run_animate(const Arguments& arguments, Terminal& terminal) {
     if (arguments.selects && !wanted.from)
         throw Error(ErrorKind::usage,
                     {.what = "a selection applies to an evolution only", .next = "give --from and --to, or omit the selection"});
-    if (has_surfaces(arguments.output)) {
+    if (lower_extension(arguments.output) == ".vtkhdf") {
         return animate_surfaces(arguments, terminal, [&](Source& source) { return isovalues(arguments, source); });
     }
     Sides sides(arguments, terminal);

@@ -1,6 +1,5 @@
 // isoatlas verify: the guarantees, one by one; exit code 7 when one does not hold.
 #include <algorithm>
-#include <filesystem>
 
 #include <fmt/format.h>
 
@@ -14,8 +13,7 @@ namespace isoatlas::cli {
 namespace {
 
 bool is_mesh(const std::string& path) {
-    std::string extension = std::filesystem::path(path).extension().string();
-    for (char& c : extension) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+    const std::string extension = lower_extension(path);
     return extension == ".ply" || extension == ".stl" || extension == ".obj" || extension == ".vtp" || extension == ".glb" ||
            extension == ".vtkhdf";
 }
