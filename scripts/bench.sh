@@ -28,7 +28,7 @@ page=docs/performance.md
 fields=() methods=() surfaces=() scale=() engine=() pairs=() builds=() package=()
 if [[ -n $quick ]]; then
     out=build/bench/quick
-    engine=(smooth-64 noisy-64 white-64) scale=(--sizes 32 64) pairs=(--pairs 1) builds=(--builds 1) package=(--memmap smooth-64 --loops 100)
+    engine=(smooth-64 noisy-64 white-64) scale=(--sizes 32 64) pairs=(--pairs 1) builds=(--builds 1) package=(--memmap smooth-64 --loops 100 --interrupts 2)
     methods=(smooth-16 smooth-32 smooth-64 white-16 white-32 white-64)
     fields=(--volumes "${engine[@]}")
     surfaces=(--volumes smooth-16 white-16)

@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
-"""The Python package beside the C++ program: surfaces of arrays, and what opening, importing and dropping cost.
+"""The Python package beside the C++ program: surfaces of arrays, from file to file, and what opening, importing, dropping and Ctrl-C cost.
 
-    package.py BENCH_EXTRACT [--volumes smooth-256 ...] [--pairs 5] [--memmap smooth-512] [--loops 10000] [--cache FOLDER] [--data FOLDER]
-               [--json FILE]
+    package.py BENCH_EXTRACT [--volumes smooth-256 ...] [--pairs 5] [--memmap smooth-512] [--loops 10000] [--interrupts 20]
+               [--cache FOLDER] [--data FOLDER] [--json FILE]
 
 A surface of the same samples in memory, at the same isovalue, without ids, by bench_extract and by Atlas.surface(), in turns, medians. The package is
-that of the folder beside the program's (BUILD/python). Answers first: the same numbers of points and triangles.
+that of the folder beside the program's (BUILD/python). Answers first: the same numbers of points and triangles; of files the same bytes.
 """
 import argparse
 import json
@@ -15,11 +15,10 @@ import subprocess
 import sys
 from pathlib import Path
 
-import numpy as np
-
 sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
+from facts import environment, facts, in_python
 from field import Field
-from runs import FIELDS, REAL, add_options, chosen, ours, sources
+from runs import FIELDS, REAL, add_options, chosen, file_of, ours, sources
 
 VOLUMES = [*FIELDS, *REAL]
 
@@ -38,59 +37,35 @@ for _ in range(repeats):
 print(json.dumps({"seconds": seconds, "points": points, "triangles": triangles}))
 """
 
-MEMMAP = """
-import json, resource, sys, time
-import numpy, isoatlas
-array = numpy.memmap(sys.argv[1], sys.argv[3], "r", shape=tuple(json.loads(sys.argv[2])))
-before = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
-start = time.perf_counter()
-with isoatlas.open(array, memory="1G") as atlas:
-    objects = len(atlas.objects)
-    triangles = len(atlas.objects[0].surface().triangles)
-peak = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
-print(json.dumps({"seconds": time.perf_counter() - start, "before": 1024 * before, "peak": 1024 * peak, "objects": objects,
-                  "triangles": triangles}))
-"""
-
-LOOPS = """
-import json, sys
-import numpy, isoatlas
-def resident():
-    return 1024 * int(next(line for line in open("/proc/self/status") if line.startswith("VmRSS")).split()[1])
-def once(array):
-    atlas = isoatlas.open(array)
-    return len(atlas.objects[0].surface().triangles)
-array = isoatlas.phantom("demo", 32)
-count = int(sys.argv[1])
-for _ in range(count // 10):
-    once(array)
-early = resident()
-for _ in range(count - count // 10):
-    once(array)
-print(json.dumps({"loops": count, "early": early, "late": resident()}))
-"""
-
-IMPORT = """
-import json, sys, time
-import numpy
-start = time.perf_counter()
-import isoatlas
-imported = time.perf_counter() - start
-seconds = []
-for _ in range(20):
-    start = time.perf_counter()
-    isoatlas.open(sys.argv[1])
-    seconds.append(time.perf_counter() - start)
-print(json.dumps({"import": imported, "open": seconds}))
+FILE_TO_FILE = """
+import sys, isoatlas
+isoatlas.open(sys.argv[1]).surface(float(sys.argv[2])).save(sys.argv[3])
 """
 
 
-def in_python(arguments, script, *words):
-    environment = dict(os.environ, PYTHONPATH=str(Path(arguments.program).parent.parent / "python"))
-    done = subprocess.run([sys.executable, "-B", "-c", script, *map(str, words)], capture_output=True, text=True, env=environment)
-    if done.returncode != 0:
-        sys.exit(done.stderr)
-    return json.loads(done.stdout)
+def processor_seconds(command, **options):
+    """Of one run of a command, user and system."""
+    child = subprocess.Popen(command, stdout=subprocess.DEVNULL, **options)
+    _, status, used = os.wait4(child.pid, 0)
+    if status != 0:
+        sys.exit(f"{command}: {status}")
+    return used.ru_utime + used.ru_stime
+
+
+def file_to_file(arguments, volume, tau):
+    """`isoatlas extract` and a script of three lines, in turns: the same bytes."""
+    program = Path(arguments.program).parent / "isoatlas"
+    source, cache = file_of(volume, program, arguments), Path(arguments.cache)
+    outputs = [cache / "extract.ply", cache / "script.ply"]
+    extract, script = [], []
+    for _ in range(arguments.pairs):
+        extract.append(processor_seconds([program, "extract", source, "--tau", repr(tau), "-o", outputs[0], "--quiet"]))
+        script.append(processor_seconds([sys.executable, "-B", "-c", FILE_TO_FILE, source, repr(tau), outputs[1]], env=environment(arguments)))
+        if outputs[0].read_bytes() != outputs[1].read_bytes():
+            sys.exit(f"{volume} at {tau}: the files of extract and of the script differ")
+        for output in outputs:
+            output.unlink()
+    return statistics.median(extract), statistics.median(script)
 
 
 def surface_record(arguments, volume):
@@ -107,26 +82,10 @@ def surface_record(arguments, volume):
             sys.exit(f"{volume} at {tau}: {native['points']} points and {native['triangles']} triangles, in Python {python}")
         theirs.append(min(native["seconds"]))
         own.append(min(python["seconds"]))
+    extract, script = file_to_file(arguments, volume, tau)
     return {"volume": volume, "tau": round(tau, 5), "triangles": native["triangles"], "C++, s": statistics.median(theirs),
-            "Python, s": statistics.median(own), "Python / C++": statistics.median(a / b for a, b in zip(own, theirs))}
-
-
-def facts(arguments):
-    program, cache = arguments.program, Path(arguments.cache)
-    made = ours(program, arguments.memmap, *sources(arguments))
-    raw, shape = cache / f"{arguments.memmap}.raw", made["size"][::-1]
-    memmap = in_python(arguments, MEMMAP, raw, shape, made["type"])
-    store = cache / "python.atlas"
-    in_python(arguments, "import json, sys, isoatlas\nprint(json.dumps(isoatlas.build(isoatlas.phantom('demo', 64), sys.argv[1]) and 1))", store)
-    start = in_python(arguments, IMPORT, store)
-    store.unlink()
-    loops = in_python(arguments, LOOPS, arguments.loops)
-    return [{"what": f"{arguments.memmap}, a memmap with memory=\"1G\": objects and a surface", "measured":
-             f"peak {memmap['peak'] / 2**20:.0f} MiB, {memmap['seconds']:.1f} s", "goal": "1.1 GB"},
-            {"what": "opening a store", "measured": f"{1e3 * statistics.median(start['open']):.2f} ms", "goal": "10 ms"},
-            {"what": "import isoatlas, beyond numpy", "measured": f"{1e3 * start['import']:.0f} ms", "goal": "100 ms"},
-            {"what": f"{loops['loops']:,} times: open an array, objects, a surface, drop all", "measured":
-             f"{(loops['late'] - loops['early']) / 2**20:+.1f} MiB after the first tenth", "goal": "no growth"}]
+            "Python, s": statistics.median(own), "Python / C++": statistics.median(a / b for a, b in zip(own, theirs)),
+            "isoatlas extract, s of a processor": extract, "script, s of a processor": script}
 
 
 def main():
@@ -134,6 +93,7 @@ def main():
     add_options(parser, VOLUMES, pairs=5)
     parser.add_argument("--memmap", default="smooth-512", help="the volume that is larger than its memory")
     parser.add_argument("--loops", type=int, default=10000)
+    parser.add_argument("--interrupts", type=int, default=20, help="of each kind of call")
     arguments = parser.parse_args()
     document = {"pairs": arguments.pairs, "surfaces": [], "facts": []}
     for volume in chosen(arguments, VOLUMES):

@@ -144,4 +144,14 @@ void wait_for_abandoned_calls() {
     abandoned().changed.wait(lock, [] { return abandoned().count == 0; });
 }
 
+void wait_for_abandoned_calls_or_signal() {
+    const auto are_done = [] {
+        const py::gil_scoped_release free;
+        std::unique_lock lock(abandoned().mutex);
+        return abandoned().changed.wait_for(lock, kBetweenSignals, [] { return abandoned().count == 0; });
+    };
+    while (!are_done())
+        if (PyErr_CheckSignals() != 0) throw py::error_already_set();
+}
+
 }  // namespace isoatlas::python

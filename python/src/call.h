@@ -64,6 +64,8 @@ private:
 
 /// At the end of the interpreter: waits for work that was left alone.
 void wait_for_abandoned_calls();
+/// Before work that needs what abandoned work may still hold, such as the lock of a store. Throws what a signal handler raises.
+void wait_for_abandoned_calls_or_signal();
 
 /// function(const Context&) without the interpreter, as LongCall::run() does; its result. It captures by value, or shared pointers.
 template <class Function>

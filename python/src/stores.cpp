@@ -35,7 +35,9 @@ BuildOptions build_options_of(const py::dict& options, const VolumeInfo& info, c
     return build;
 }
 
-py::dict dict_of(const BuildReport& report) {
+py::dict built(const std::string& path, const std::shared_ptr<VolumeReader>& reader, const BuildOptions& build, const CallOptions& call) {
+    wait_for_abandoned_calls_or_signal();  // an interrupted build may still hold the store
+    const BuildReport report = long_call(call, [=](const Context& context) { return build_atlas(path, *reader, build, context); });
     py::dict dict;
     dict["resumed"] = report.resumed;
     dict["not_used"] = report.not_used;
@@ -51,7 +53,7 @@ py::dict build_from_file(const std::string& path, const std::string& volume, con
     const std::shared_ptr<VolumeReader> reader = open_volume(volume, open);
     BuildOptions build = build_options_of(options, reader->info(), policy);
     build.time_step = open.time_step;
-    return dict_of(long_call(call, [=](const Context& context) { return build_atlas(path, *reader, build, context); }));
+    return built(path, reader, build, call);
 }
 
 /// Copies an array that Python has read into memory of C++. Called without the interpreter.
@@ -89,7 +91,7 @@ py::dict build_from_slabs(const std::string& path, const Shape& shape, const py:
     info.geometry = geometry_of(geometry);
     const std::shared_ptr<VolumeReader> reader = slab_reader(info, SlabsOfPython(read, *type));
     const BuildOptions build = build_options_of(options, info, missing_of(missing, no_data));
-    return dict_of(long_call(call, [=](const Context& context) { return build_atlas(path, *reader, build, context); }));
+    return built(path, reader, build, call);
 }
 
 /// The same from memory that is there, with the interpreter released throughout.
@@ -101,7 +103,7 @@ py::dict build_from_volume(const std::string& path, const std::shared_ptr<Volume
         std::copy(from.bytes.begin() + z * slice, from.bytes.begin() + end * slice, out.begin());
     });
     const BuildOptions build = build_options_of(options, volume->info, missing_of(missing, no_data));
-    return dict_of(long_call(call, [=](const Context& context) { return build_atlas(path, *reader, build, context); }));
+    return built(path, reader, build, call);
 }
 
 }  // namespace

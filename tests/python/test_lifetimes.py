@@ -172,6 +172,34 @@ def test_control_c_stops_every_long_call(call, tmp_path):
     assert not (tmp_path / "v.atlas").exists()
 
 
+def test_a_build_waits_for_the_interrupted_one(tmp_path):
+    """Which may still hold the store for a moment."""
+    program = textwrap.dedent("""
+        import os, signal, sys, threading, time
+        import numpy as np, isoatlas
+        array, path = np.random.default_rng(1).random((120, 120, 120), dtype=np.float32), sys.argv[1]
+        interrupts = 0
+        for _ in range(5):
+            begun = threading.Event()
+            def interrupt():
+                begun.wait()
+                os.kill(os.getpid(), signal.SIGINT)
+            thread = threading.Thread(target=interrupt, daemon=True)
+            thread.start()
+            try:
+                isoatlas.build(array, path, restart=True, progress=lambda phase, part: begun.set())
+                thread.join()
+            except KeyboardInterrupt:
+                interrupts += 1
+        isoatlas.build(array[:20, :20, :20], path, restart=True)
+        print(interrupts, isoatlas.open(path).shape)
+    """)
+    done = subprocess.run([sys.executable, "-c", program, tmp_path / "v.atlas"], capture_output=True, text=True,
+                          env=dict(os.environ, PYTHONPATH=os.pathsep.join(sys.path)))
+    assert done.returncode == 0, done.stderr
+    assert done.stdout == "5 (20, 20, 20)\n"
+
+
 def test_progress_comes_through_and_may_raise():
     array = np.float32(smooth((40, 40, 40), passes=0))
     seen = []

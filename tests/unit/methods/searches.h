@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -15,6 +16,33 @@
 
 namespace oracle {
 
+/// Builds one search.
+struct SearchMaker {
+    std::string name;
+    std::function<std::unique_ptr<isoatlas::CellSearch>()> make;
+};
+
+/// Of the volume, which is borrowed; those in files: in names that begin with `prefix`.
+inline std::vector<SearchMaker> search_makers(const isoatlas::Volume& volume, const std::string& prefix, std::int64_t block_bytes = 4096) {
+    std::vector<SearchMaker> makers;
+    for (const isoatlas::SearchMethodInfo& info : isoatlas::search_methods())
+        makers.push_back({std::string(info.name), [&volume, method = info.method] { return isoatlas::make_cell_search(method, volume); }});
+    makers.push_back({"interval-tree-file", [&volume, path = prefix + "tree", block_bytes] {
+                          isoatlas::write_interval_tree(path, volume, {.block_bytes = block_bytes});
+                          return std::make_unique<isoatlas::IntervalTreeFile>(path);
+                      }});
+    makers.push_back({"zone-files", [&volume, path = prefix + "zones", block_bytes] {
+                          isoatlas::write_zone_files(path, volume, isoatlas::analyse(volume), {.block_bytes = block_bytes});
+                          return std::make_unique<isoatlas::ZoneFileSearch>(path);
+                      }});
+    makers.push_back({"bricks", [&volume, path = prefix + "atlas"] {
+                          isoatlas::build_atlas(path, volume);
+                          return std::make_unique<isoatlas::BrickSearch>(path);
+                      }});
+    return makers;
+}
+
+/// All of them at once, their files in memory.
 class Searches {
 public:
     struct Named {
@@ -23,15 +51,8 @@ public:
     };
 
     explicit Searches(const isoatlas::Volume& volume, std::int64_t block_bytes = 4096) {
-        for (const isoatlas::SearchMethodInfo& info : isoatlas::search_methods())
-            all_.push_back({std::string(info.name), isoatlas::make_cell_search(info.method, volume)});
         const isoatlas::ReplacedFileSystem files(disk_);
-        isoatlas::write_interval_tree("tree", volume, {.block_bytes = block_bytes});
-        all_.push_back({"interval-tree-file", std::make_unique<isoatlas::IntervalTreeFile>("tree")});
-        isoatlas::write_zone_files("zones", volume, isoatlas::analyse(volume), {.block_bytes = block_bytes});
-        all_.push_back({"zone-files", std::make_unique<isoatlas::ZoneFileSearch>("zones")});
-        isoatlas::build_atlas("atlas", volume);
-        all_.push_back({"bricks", std::make_unique<isoatlas::BrickSearch>("atlas")});
+        for (const SearchMaker& maker : search_makers(volume, "", block_bytes)) all_.push_back({maker.name, maker.make()});
     }
     [[nodiscard]] std::vector<Named>& all() { return all_; }
 
