@@ -57,14 +57,15 @@ def _range_bar(one: Object, low: float, high: float) -> str:
 
 def table(objects: Sequence[Object], atlas: Atlas, pictures: int = PICTURES) -> str:
     low, high = atlas.range
-    unit = html.escape(atlas.info["measure_unit"])
-    heads = ["", "#", "best tau", "range of values", "voxels", unit, "tunnels", "cavities", "why"]
+    unit = atlas.info["measure_unit"]
+    is_counted = unit == "voxels"  # no unit of length: the size is the number of samples
+    heads = ["", "#", "best tau", "range of values", "voxels", *([] if is_counted else [html.escape(unit)]), "tunnels", "cavities", "why"]
     rows, names = [], _names.names_of_lines(atlas)
     for i, one in enumerate(objects):
         note = html.escape(", ".join(filter(None, (one.why or one.reason, one.note))))
         title = html.escape(" ".join(filter(None, (one.reference, names.get(_names.key_of(one))))))
         cells = [_picture(one, atlas) if i < pictures else "", title, f"{one.best_tau:g}", _range_bar(one, low, high),
-                 f"{one.voxels:,}", f"{one.measure:,.4g}", str(one.tunnels or "-"), str(one.cavities or "-"), note]
+                 f"{one.voxels:,}", *([] if is_counted else [f"{one.measure:,.4g}"]), str(one.tunnels or "-"), str(one.cavities or "-"), note]
         rows.append("<tr>" + "".join(f"<td>{cell}</td>" for cell in cells) + "</tr>")
     head = "".join(f"<th>{cell}</th>" for cell in heads)
     return f'<table class="isoatlas"><thead><tr>{head}</tr></thead><tbody>{"".join(rows)}</tbody></table>'

@@ -59,7 +59,7 @@ class Selection(harness.CliTest):
 
     def lines_of_vtu(self, path):
         """The array downNodeId of the lines."""
-        before, after = path.read_bytes().split(b'<AppendedData encoding="raw">\n_', 1)
+        before, after = re.split(rb'<AppendedData encoding="raw">\s*_', path.read_bytes(), maxsplit=1)
         found = re.search(rb'Name="downNodeId" format="appended" offset="(\d+)"', before)
         if found is None:
             return []

@@ -51,6 +51,8 @@ def test_tables_and_atlases_have_html(demo):
     tags = tags_of(atlas.objects._repr_html_())
     assert tags.count("tr") == len(atlas.objects) + 1 and "img" in tags
     assert "table" in tags_of(atlas._repr_html_())
+    assert atlas.objects._repr_html_().count("<th>voxels</th>") == 1
+    assert "<th>mm\u00b3</th>" in isoatlas.open(demo, unit="mm").objects._repr_html_()
     assert "img" not in tags_of(isoatlas.open(demo[30]).objects._repr_html_())  # nothing to draw of an image
 
 

@@ -28,6 +28,17 @@ inline constexpr const char* vtk_type<float> = "Float32";
 template <>
 inline constexpr const char* vtk_type<double> = "Float64";
 
+/// The tag before raw blocks, and white space that fills a whole block of 4096 bytes of the file. VTK before 9.3.1
+/// reads files in such blocks; with an expat that defers its work (2.6, and 2.5 in Debian since 2024) it notices the end of the tag only
+/// in the block after it, and took raw bytes there for broken XML. VTK issue 19258.
+inline void begin_appended_data(ByteWriter& out) {
+    constexpr std::int64_t kBlock = 4096;
+    constexpr std::string_view kTag = "<AppendedData encoding=\"raw\">\n";
+    const std::int64_t end = out.size() + static_cast<std::int64_t>(kTag.size());
+    const std::int64_t white_end = (end + kBlock - 1) / kBlock * kBlock + kBlock;
+    out.text(std::string(kTag) + std::string(static_cast<std::size_t>(white_end - end), ' ') + "_");
+}
+
 /// The appended blocks. add() returns the element that refers to the block; write() must follow all elements.
 class AppendedArrays {
 public:
@@ -45,7 +56,7 @@ public:
         return element;
     }
     void write(ByteWriter& out) const {
-        out.text("<AppendedData encoding=\"raw\">\n_");
+        begin_appended_data(out);
         for (const Block& block : blocks_) {
             out.put(static_cast<std::uint64_t>(block.bytes));
             block.put(out);

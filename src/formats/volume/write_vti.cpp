@@ -25,7 +25,7 @@ std::string header(const VolumeInfo& info) {
     if (!geometry.unit.empty()) text += vtk_string("Unit", geometry.unit);
     return text + "</FieldData>\n<Piece Extent=\"" + extent + "\">\n<PointData Scalars=\"values\">\n<DataArray type=\"" +
            vtk_name(info.type) + "\" Name=\"values\" format=\"appended\" offset=\"0\"/>\n</PointData>\n<CellData>\n</CellData>\n" +
-           "</Piece>\n</ImageData>\n<AppendedData encoding=\"raw\">\n_";
+           "</Piece>\n</ImageData>\n";
 }
 
 }  // namespace
@@ -33,6 +33,7 @@ std::string header(const VolumeInfo& info) {
 void write_vti(Sink& sink, const VolumeInfo& info, const SampleFeed& samples) {
     ByteWriter out(sink);
     out.text(header(info));
+    begin_appended_data(out);
     out.put(static_cast<std::uint64_t>(info.extent.voxels()) * size_of(info.type));
     out.finish();
     samples([&](std::span<const std::byte> bytes) { sink.write(bytes); });

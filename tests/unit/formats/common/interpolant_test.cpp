@@ -108,7 +108,7 @@ std::optional<double> field_number(const pugi::xml_node& field, const char* name
     const pugi::xml_node element = field.find_child_by_attribute("DataArray", "Name", name);
     if (!element) return {};
     double number = 0;
-    const std::size_t blocks = bytes.find("<AppendedData encoding=\"raw\">\n_") + 31;
+    const std::size_t blocks = bytes.find('_', bytes.find("<AppendedData encoding=\"raw\">\n")) + 1;
     std::memcpy(&number, bytes.data() + blocks + element.attribute("offset").as_ullong() + 8, sizeof number);
     return number;
 }
