@@ -182,6 +182,9 @@ class Compare(harness.CliTest):
         self.assertGreaterEqual(len(page.leads), len(rows))   # each title leads to what docs/methods.md says of it
         self.assertNotIn("query, ms over active cells, k", page.tables)
         self.assertNotIn("![", (self.folder / "all.html").read_text())   # figures of the document are files beside it
+        self.assertNotIn("|---", (self.folder / "all.html").read_text())  # its tables are tables, its lists are lists
+        self.assertIn("travel utility, %</th>", (self.folder / "all.html").read_text())
+        self.assertIn("<ul><li>By zone", (self.folder / "all.html").read_text())
 
     def test_an_image_and_a_volume_without_a_surface(self):
         self.run_ok("convert", "noise.nrrd", "--box", "0:14,0:14", "-o", "image.npy")

@@ -4,6 +4,7 @@
 #include <cctype>
 
 #include "compare/html.h"
+#include "compare/html_table.h"
 
 namespace isoatlas::cli {
 namespace {
@@ -35,13 +36,62 @@ std::vector<std::string> words_in(std::string_view text) {
     return words;
 }
 
+std::string_view trimmed(std::string_view text) {
+    while (!text.empty() && text.front() == ' ') text.remove_prefix(1);
+    while (!text.empty() && text.back() == ' ') text.remove_suffix(1);
+    return text;
+}
+
+/// Of a line "| a | b |": what stands between the bars.
+std::vector<std::string> cells_of(std::string_view line) {
+    std::vector<std::string> cells;
+    line.remove_prefix(1);
+    for (std::size_t end = line.find('|'); end != std::string_view::npos; end = line.find('|')) {
+        cells.emplace_back(trimmed(line.substr(0, end)));
+        line.remove_prefix(end + 1);
+    }
+    return cells;
+}
+
+/// lines: titles of columns, a line of dashes, rows.
+std::string html_of_table(std::string_view caption, const std::vector<std::string_view>& lines) {
+    std::vector<HtmlTable::Column> columns;
+    for (const std::string& title : cells_of(lines[0])) columns.push_back({title, columns.empty()});
+    HtmlTable table("Numbers of: " + std::string(caption), std::move(columns));
+    for (std::size_t i = 2; i < lines.size(); ++i) {
+        const std::vector<std::string> cells = cells_of(lines[i]);
+        table.begin(html_of_markdown(cells[0]));
+        for (std::size_t k = 1; k < cells.size(); ++k) table.add(html_of_markdown(cells[k]));
+    }
+    return table.html();
+}
+
+/// A paragraph, a list whose items begin with "- ", or both: the items follow the text that announces them.
+std::string html_of_text(const std::vector<std::string_view>& lines) {
+    std::vector<std::string> parts{""};  // the text, then the items
+    for (const std::string_view line : lines) {
+        const bool is_item = line.starts_with("- ");
+        if (is_item) parts.emplace_back();
+        const std::string_view words = trimmed(is_item ? line.substr(2) : line);
+        parts.back() += (parts.back().empty() ? "" : " ") + std::string(words);
+    }
+    std::string html = parts[0].empty() ? "" : "<p>" + html_of_markdown(parts[0]) + "</p>";
+    if (parts.size() == 1) return html;
+    html += "<ul>";
+    for (std::size_t i = 1; i < parts.size(); ++i) html += "<li>" + html_of_markdown(parts[i]) + "</li>";
+    return html + "</ul>";
+}
+
+/// Sections of the document: those whose heading names a section of the dissertation; figures, which are files beside it, are left out.
 std::vector<MethodSection> parsed(std::string_view text) {
     std::vector<MethodSection> sections;
-    std::string paragraph;
+    std::vector<std::string_view> lines;  // of a paragraph
     const auto end_paragraph = [&] {
-        const bool is_figure = paragraph.starts_with("![");  // a file beside the document
-        if (!paragraph.empty() && !is_figure && !sections.empty()) sections.back().html += "<p>" + html_of_markdown(paragraph) + "</p>";
-        paragraph.clear();
+        if (!lines.empty() && !lines[0].starts_with("![")) {
+            const bool is_table = lines[0].starts_with("|") && lines.size() > 2;
+            sections.back().html += is_table ? html_of_table(sections.back().title, lines) : html_of_text(lines);
+        }
+        lines.clear();
     };
     bool is_method = false;
     while (!text.empty()) {
@@ -54,7 +104,7 @@ std::vector<MethodSection> parsed(std::string_view text) {
             const std::string_view title = line.substr(3);
             sections.push_back({std::string(title), section_in(title), "", anchor_of(title)});
         } else if (is_method && !line.empty()) {
-            paragraph += (paragraph.empty() ? "" : " ") + std::string(line);
+            lines.push_back(line);
         }
     }
     end_paragraph();

@@ -16,7 +16,7 @@ namespace cli {
 struct MethodSection {
     std::string title;    ///< "Octree, and branch-on-need octree (3.7.1)"
     std::string section;  ///< of the dissertation: "3.7.1"
-    std::string html;     ///< its paragraphs
+    std::string html;     ///< its paragraphs, lists and tables
     std::string anchor;   ///< "octree-and-branch-on-need-octree-371"
 };
 /// Those about a method, in the order of the document.

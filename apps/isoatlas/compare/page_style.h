@@ -22,7 +22,7 @@ inline constexpr std::string_view kPageStyle = R"css(
 }
 * { box-sizing: border-box; }
 body { margin: 0; background: var(--ground); color: var(--ink); }
-main { max-width: 76rem; margin: 0 auto; padding: 1.5rem 1rem 3rem; }
+main { max-width: 90rem; margin: 0 auto; padding: 1.5rem 1rem 3rem; }
 h1 { font-size: 1.7rem; margin: 0 0 0.25rem; overflow-wrap: anywhere; }
 h2 { font-size: 1.15rem; margin: 0 0 0.75rem; }
 h3 { font-size: 1rem; margin: 1rem 0 0.25rem; }
@@ -41,9 +41,9 @@ code { overflow-wrap: anywhere; }
 .key span { display: inline-flex; align-items: center; margin-right: 1.25rem; }
 .key span::before { content: ""; width: 1rem; height: 1rem; margin-right: 0.4rem; border-radius: 3px; background: var(--key); }
 .scroll { overflow-x: auto; }
-table { border-collapse: collapse; font-size: 0.85rem; width: 100%; font-variant-numeric: tabular-nums; }
+table { border-collapse: collapse; font-size: 0.8rem; width: 100%; font-variant-numeric: tabular-nums; }
 caption { text-align: left; color: var(--soft); padding-bottom: 0.4rem; }
-th, td { text-align: right; padding: 0.25rem 0.6rem 0.25rem 0; white-space: nowrap; }
+th, td { text-align: right; padding: 0.25rem 0.45rem 0.25rem 0; white-space: nowrap; }
 th[scope="row"], th.words, td.words { text-align: left; font-weight: 400; }
 thead th { color: var(--soft); border-bottom: 1px solid var(--line); vertical-align: bottom; white-space: normal; }
 tbody tr + tr > * { border-top: 1px solid color-mix(in srgb, var(--line) 50%, transparent); }
