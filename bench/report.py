@@ -221,6 +221,7 @@ TABLES = [
     ("phases", "engine", phases_table),
     ("extract", "extract", lambda document: generic_table(document["results"], extract_misses)),
     ("store-builds", "store", lambda document: generic_table(document["builds"], build_misses)),
+    ("store-phases", "store", lambda document: generic_table(document["phases"])),
     ("store-surfaces", "store", lambda document: generic_table(document["surfaces"], store_misses)),
     ("store-objects", "store", lambda document: generic_table(document["objects"])),
     ("render", "render", lambda document: generic_table(document["pictures"], render_misses)),

@@ -14,10 +14,11 @@ ROOT = pathlib.Path(__file__).resolve().parent.parent
 ENGINE = "src/field src/critical src/tree src/zones src/analysis src/persistence".split()
 SURFACES = "src/field src/levelset src/mesh".split()
 STORES = SURFACES + "src/codec src/bricks src/census src/store src/atlas".split()
+BUILDS = STORES + ENGINE + ["src/features"]
 PICTURES, PAGES = ["src/render"], "src/features src/catalogue src/page src/preview src/render".split()
 MEASURED = {
     "engine": ENGINE, "phases": ENGINE, "scale-analysis": ENGINE, "extract": SURFACES, "scale-extract": SURFACES,
-    "store-builds": STORES + ENGINE + ["src/features"], "store-surfaces": STORES, "store-objects": STORES, "scale-stores": STORES + ENGINE + ["src/features"],
+    "store-builds": BUILDS, "store-phases": BUILDS, "store-surfaces": STORES, "store-objects": STORES, "scale-stores": BUILDS,
     "render": PICTURES, "scale-render": PICTURES, "pages": PAGES, "scale-pages": PAGES,
     "python-surfaces": ["python"], "python-facts": ["python"],
     "methods": ["src/methods/search", "src/methods/disk"],
@@ -25,7 +26,7 @@ MEASURED = {
 ROWS = {  # of the tables that list volumes
     "smooth": "smooth-", "noisy": "noisy-", "white": "white-", "CT": "bonsai", "MR": "seg3d_mr", "EM": "emd3001", "labels": "frog_labels",
 }
-LISTS = "engine phases extract store-builds store-surfaces store-objects render pages python-surfaces".split()
+LISTS = "engine phases extract store-builds store-phases store-surfaces store-objects render pages python-surfaces".split()
 TABLE = re.compile(r"<!-- ([\w-]+):begin -->\n(.*?)<!-- \1:end -->", re.S)
 
 

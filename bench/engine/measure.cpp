@@ -6,6 +6,7 @@
 #include <stdexcept>
 #include <thread>
 
+#include "phase_clock.h"
 #include "yardstick.h"
 
 namespace bench {
@@ -20,32 +21,6 @@ double median(std::vector<double> values) {
     std::sort(values.begin(), values.end());
     return values[values.size() / 2];
 }
-
-/// Sums time by the name of the phase that the engine reports.
-class PhaseClock {
-public:
-    void enter(const std::string& name) {
-        leave();
-        current_ = name;
-        start_ = Clock::now();
-    }
-    void leave() {
-        if (current_.empty()) return;
-        const auto known = std::find_if(phases_.begin(), phases_.end(), [this](const auto& phase) { return phase.first == current_; });
-        if (known == phases_.end())
-            phases_.emplace_back(current_, since(start_));
-        else
-            known->second += since(start_);
-        current_.clear();
-    }
-    [[nodiscard]] const std::string& current() const { return current_; }
-    [[nodiscard]] const std::vector<std::pair<std::string, double>>& phases() const { return phases_; }
-
-private:
-    std::vector<std::pair<std::string, double>> phases_;
-    std::string current_;
-    Clock::time_point start_;
-};
 
 Answer answer_of(const isoatlas::Analysis& analysis) {
     Answer answer{analysis.element_count(), 0, analysis.event_count(), analysis.contour_arc_count()};
@@ -62,20 +37,17 @@ Answer answer_of(const isoatlas::Analysis& analysis) {
 struct Run {
     double seconds;
     Answer answer;
-    std::vector<std::pair<std::string, double>> phases;
+    PhaseClock::Phases phases;
 };
 
 Run run(const isoatlas::Volume& volume, int threads, isoatlas::Interpolant interpolant = isoatlas::Interpolant::faces) {
     PhaseClock phases;
     isoatlas::Context context;
     context.threads = threads;
-    context.progress = [&phases](const isoatlas::Progress& progress) {
-        if (progress.phase != phases.current()) phases.enter(std::string(progress.phase));
-    };
+    context = phases.watched(context);
     const Clock::time_point start = Clock::now();
     const isoatlas::Analysis analysis = isoatlas::analyse(volume, {.interpolant = interpolant}, context);
     const double seconds = since(start);
-    phases.leave();
     return {seconds, answer_of(analysis), phases.phases()};
 }
 

@@ -93,6 +93,8 @@ def build_record(volume, built):
     return {"volume": volume, "size": "x".join(map(str, built["size"])), "type": built["type"],
             "build, s": seconds, "analysis in memory, s": analysis,
             "build / analysis": statistics.median(b / a for a, b in zip(built["analysis_seconds"], built["seconds"])),
+            "its answers in memory, s": statistics.median(built["answers_seconds"]),
+            "build / answers": statistics.median(b / a for a, b in zip(built["answers_seconds"], built["seconds"])),
             "ns a voxel": 1e9 * seconds / built["voxels"], "peak bytes a voxel": built["peak_bytes"] / built["voxels"],
             "bytes a voxel": built["bytes_per_voxel"], "bytes of a sample": built["sample_bytes"],
             "bytes / raw": built["bytes_per_voxel"] / built["sample_bytes"]}
@@ -104,6 +106,7 @@ def measure(volume, arguments, document):
     built = ours(program, "build", volume, store, *sources(arguments), "--threads", arguments.threads, "--analysis",
                  "--repeats", arguments.builds)
     document["builds"].append(build_record(volume, built))
+    document["phases"].append({"volume": volume} | {phase: round(s, 3) for phase, s in built["phases"]})
     print(document["builds"][-1], flush=True)
     field = Field(cache / f"{volume}.raw", built["size"], built["type"])
     image, isovalues = field.image(), field.isovalues_of(arguments.active)
@@ -124,7 +127,7 @@ def main():
     parser.add_argument("--builds", type=int, default=2, help="of a store, each after an analysis in memory")
     arguments = parser.parse_args()
     vtk.vtkSMPTools.Initialize(arguments.threads)
-    document = {"threads": arguments.threads, "pairs": arguments.pairs, "builds": [], "surfaces": [], "objects": []}
+    document = {"threads": arguments.threads, "pairs": arguments.pairs, "builds": [], "phases": [], "surfaces": [], "objects": []}
     for volume in chosen(arguments, VOLUMES):
         measure(volume, arguments, document)
     if arguments.json:

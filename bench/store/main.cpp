@@ -23,6 +23,7 @@
 #include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -30,6 +31,7 @@
 #include "cold.h"
 #include "command_line.h"
 #include "memory.h"
+#include "phase_clock.h"
 #include "volumes.h"
 
 namespace bench {
@@ -115,14 +117,28 @@ ordered_json measure(const Arguments& arguments, const isoatlas::SurfaceOptions&
     return result;
 }
 
+/// What a store holds beside an analysis, computed in memory: objects, cavities, and the numbers of the spectrum.
+void answer(const isoatlas::Volume& volume, const isoatlas::Analysis& analysis, const isoatlas::Context& context) {
+    constexpr std::int64_t kStored = 1024;  // objects
+    (void)isoatlas::rank_both(volume, analysis, {.top = kStored}, context);
+    (void)isoatlas::spectrum(volume, analysis, {}, context);
+}
+
 ordered_json build(const Arguments& arguments) {
     const isoatlas::Volume volume = make(arguments.word(1), arguments.sources);
-    ordered_json seconds = ordered_json::array(), analysis = ordered_json::array();
+    ordered_json seconds = ordered_json::array(), analysis = ordered_json::array(), answers = ordered_json::array();
     std::int64_t peak_bytes = 0;
+    ordered_json phases;  // of the last build
     for (int i = 0; i < arguments.repeats; ++i) {
-        if (arguments.analysis) analysis.push_back(seconds_of([&] { (void)isoatlas::analyse(volume, {}, arguments.context); }));
+        PhaseClock clock;
+        if (arguments.analysis) {
+            std::optional<isoatlas::Analysis> analysed;
+            analysis.push_back(seconds_of([&] { analysed.emplace(isoatlas::analyse(volume, {}, arguments.context)); }));
+            answers.push_back(analysis.back().get<double>() + seconds_of([&] { answer(volume, *analysed, arguments.context); }));
+        }
         const std::int64_t before = reset_peak();
-        seconds.push_back(seconds_of([&] { isoatlas::build_atlas(arguments.word(2), volume, {}, arguments.context); }));
+        seconds.push_back(seconds_of([&] { isoatlas::build_atlas(arguments.word(2), volume, {}, clock.watched(arguments.context)); }));
+        phases = clock.phases();
         peak_bytes = std::max(peak_bytes, peak() - before);
     }
     const auto bytes = static_cast<std::int64_t>(std::filesystem::file_size(arguments.word(2)));
@@ -133,6 +149,8 @@ ordered_json build(const Arguments& arguments) {
             {"voxels", voxels},
             {"seconds", seconds},
             {"analysis_seconds", analysis},
+            {"answers_seconds", answers},
+            {"phases", phases},
             {"peak_bytes", peak_bytes},
             {"bytes", bytes},
             {"bytes_per_voxel", static_cast<double>(bytes) / static_cast<double>(voxels)},
