@@ -54,6 +54,7 @@ test|python3-nbclient|the notebook of the Python package
 test|python3-ipykernel|the same
 test|python3-venv|a virtual environment for its wheel
 test|python3-nibabel|independent reader of the NIfTI files we write
+test|python3-mrcfile|independent reader and writer of MRC maps
 test|python3-tifffile|independent reader of the TIFF files we write
 test|chromium|opens the page
 test|python3-pil|independent reader of the pictures we write

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Writes the seeds of the NRRD, MetaImage, NumPy and RAW targets into tests/fuzz/corpus (the files are committed; this says how they were made)."""
+"""Writes the seeds of the NRRD, MetaImage, NumPy, MRC and RAW targets into tests/fuzz/corpus (the files are committed; this says how they were made)."""
 import gzip
 import pathlib
 import struct
@@ -17,6 +17,12 @@ def write(folder, name, content):
 
 def nrrd(version, fields, payload):
     return f"NRRD000{version}\n{fields}\n".encode() + payload
+
+
+def mrc(mode, size=(2, 3, 4), axes=(1, 2, 3), angles=(90, 90, 90), order="<", space_group=1, cells=(2, 3, 4), start=(0, 0, 0), origin=(0, 0, 0), extended=0):
+    header = struct.pack(order + "10i6f3i3f2i", *size, mode, *start, *cells, 4, 6, 8, *angles, *axes, 0, -1, -2, space_group, extended)
+    header += bytes(100) + struct.pack(order + "3f", *origin) + b"MAP " + (b"DD" if order == "<" else b"\x11\x11") + bytes(2)
+    return header + struct.pack(order + "fi", -1, 1) + b"seed".ljust(80) + bytes(720) + bytes(extended)
 
 
 def main():
@@ -43,6 +49,13 @@ def main():
     time = "type: uchar\ndimension: 4\nsizes: 2 3 4 2\nkinds: space space space time\nencoding: raw\n"
     write("nrrd", "time", nrrd(4, time, SAMPLES))
     write("nrrd", "colour", nrrd(4, "type: uchar\ndimension: 3\nsizes: 3 4 4\nkinds: RGB-color domain domain\nencoding: raw\n", SAMPLES))
+
+    for mode, bytes_of_samples in ((0, 24), (1, 48), (6, 48), (12, 48), (2, 96), (4, 192)):
+        write("mrc", f"mode_{mode}", mrc(mode) + (4 * SAMPLES)[:bytes_of_samples])
+    write("mrc", "big", mrc(1, order=">", extended=160) + SAMPLES)
+    write("mrc", "turned", mrc(0, axes=(3, 1, 2), angles=(90, 94.3, 90), start=(0, -21, -12)) + SAMPLES[:24])
+    write("mrc", "stack", mrc(0, space_group=401, cells=(2, 3, 2), origin=(1, 2, 3)) + SAMPLES[:24])
+    write("mrc", "image", mrc(0, size=(6, 4, 1), space_group=0) + SAMPLES[:24])
 
     meta = (
         "ObjectType = Image\nNDims = 3\nBinaryData = True\nBinaryDataByteOrderMSB = True\nTransformMatrix = 1 0 0 0 1 0 0 0 1\n"

@@ -183,7 +183,7 @@ void compare_options(CLI::App& app, Arguments& arguments, Typed& typed) {
 
 void convert_options(CLI::App& app, Arguments& arguments, Typed& typed) {
     add_shape(app, typed);
-    add_output(app, arguments, ".nrrd .npy .raw .mha .nii .nii.gz .vti .tif", true);
+    add_output(app, arguments, ".nrrd .npy .raw .mha .mrc .nii .nii.gz .vti .tif", true);
 }
 
 void phantom_options(CLI::App& app, Arguments& arguments, Typed& /*typed*/) {

@@ -37,6 +37,9 @@ void write_vti(Sink& sink, const VolumeInfo& info, const SampleFeed& samples);
 void write_metaimage(Sink& sink, const VolumeInfo& info, const SampleFeed& samples);
 /// NumPy: shape (z, y, x). Keeps no geometry.
 void write_npy(Sink& sink, const VolumeInfo& info, const SampleFeed& samples);
+/// MRC: 8 and 16-bit integers (uint8 as uint16) and float32, others: Error{unsupported}. Lengths in angstrom where the unit is known. Keeps
+/// axes along X, Y and Z in any order, and oblique ones whose first lies along X and second in the plane of X and Y; no other directions.
+void write_mrc(Sink& sink, const VolumeInfo& info, const SampleFeed& samples);
 /// Samples alone.
 void write_raw(Sink& sink, const SampleFeed& samples);
 /// The same as a file. A sidecar PATH.json is written beside it unless the name says dims and type and the geometry is the default one.

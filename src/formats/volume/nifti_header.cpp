@@ -1,43 +1,12 @@
 #include "formats/volume/nifti_header.h"
 
-#include <algorithm>
-#include <cstring>
 #include <string_view>
 
-#include "formats/common/text.h"
-#include "formats/volume/sample_reader.h"
+#include "formats/common/field_reader.h"
 
 namespace isoatlas {
 
 namespace {
-
-/// Numbers at byte offsets, swapped when the file has the other byte order.
-class FieldReader {
-public:
-    FieldReader(std::span<const std::byte> bytes, bool big_endian) : bytes_(bytes), swap_(needs_swap(big_endian)) {}
-
-    template <class T>
-    [[nodiscard]] T at(std::size_t offset) const {
-        std::array<std::byte, sizeof(T)> raw{};
-        std::copy_n(bytes_.begin() + static_cast<std::ptrdiff_t>(offset), sizeof(T), raw.begin());
-        if (swap_) std::reverse(raw.begin(), raw.end());
-        T value{};
-        std::memcpy(&value, raw.data(), sizeof(T));
-        return value;
-    }
-    template <class T, class Out, std::size_t N>
-    void take(std::size_t offset, std::array<Out, N>& out) const {
-        for (std::size_t i = 0; i < N; ++i) out[i] = static_cast<Out>(at<T>(offset + i * sizeof(T)));
-    }
-    [[nodiscard]] std::string text(std::size_t offset, std::size_t size) const {
-        const std::string_view field(reinterpret_cast<const char*>(bytes_.data()) + offset, size);
-        return std::string(trim(field.substr(0, field.find('\0'))));
-    }
-
-private:
-    std::span<const std::byte> bytes_;
-    bool swap_;
-};
 
 std::string_view characters(std::span<const std::byte> bytes, std::size_t offset, std::size_t size) {
     if (bytes.size() < offset + size) return {};

@@ -21,6 +21,7 @@ constexpr WrittenFormat kWrittenFormats[] = {
     {".raw", [](Sink& sink, const VolumeInfo&, const SampleFeed& samples) { write_raw(sink, samples); }},
     {".mha", write_metaimage},
     {".vti", write_vti},
+    {".mrc", write_mrc},
     {".nii", [](Sink& sink, const VolumeInfo& info, const SampleFeed& samples) { write_nifti(sink, info, samples, Packing::raw); }},
     {".nii.gz", [](Sink& sink, const VolumeInfo& info, const SampleFeed& samples) { write_nifti(sink, info, samples, Packing::gzip); }},
     {".tif", [](Sink& sink, const VolumeInfo& info, const SampleFeed& samples) { write_tiff(sink, info, samples); }},
@@ -39,7 +40,7 @@ Writer checked_writer(const std::string& path, const Volume& volume) {
     }
     throw Error(ErrorKind::usage, {.file = path,
                                    .what = "the name does not say in which format to write the volume",
-                                   .expected = "a name that ends in .nrrd, .nii, .nii.gz, .mha, .vti, .npy, .tif or .raw",
+                                   .expected = "a name that ends in .nrrd, .nii, .nii.gz, .mha, .mrc, .vti, .npy, .tif or .raw",
                                    .next = "change the extension of the output file"});
 }
 
