@@ -11,6 +11,7 @@
 
 #include "formats/common/byte_source.h"
 #include "formats/common/text.h"
+#include "formats/volume/bad_header.h"
 #include "formats/volume/formats.h"
 #include "formats/volume/half_source.h"
 #include "formats/volume/mrc_header.h"
@@ -20,14 +21,6 @@ namespace isoatlas {
 namespace {
 
 constexpr int kHalfMode = 12;
-
-[[noreturn]] void bad_header(const std::string& path, const std::string& field, const std::string& what, const std::string& expected) {
-    throw Error(ErrorKind::input, {.file = path,
-                                   .where = "header, " + field,
-                                   .what = what,
-                                   .expected = expected,
-                                   .next = "the header is damaged: get the file again or correct it"});
-}
 
 bool has_name_of_maps(const std::string& path) {
     constexpr std::array<std::string_view, 7> kEnds{".mrc", ".map", ".ccp4", ".rec", ".st", ".ali", ".mrcs"};

@@ -9,6 +9,7 @@
 #include "formats/common/own_folder.h"
 #include "formats/common/text.h"
 #include "formats/volume/axes.h"
+#include "formats/volume/bad_header.h"
 #include "formats/volume/formats.h"
 #include "formats/volume/nifti_geometry.h"
 #include "formats/volume/sample_reader.h"
@@ -18,14 +19,6 @@ namespace isoatlas {
 namespace {
 
 constexpr double kLargestOffset = 9.0e15;  ///< below 2^53: exact
-
-[[noreturn]] void bad_header(const std::string& path, const std::string& field, const std::string& what, const std::string& expected) {
-    throw Error(ErrorKind::input, {.file = path,
-                                   .where = "header, " + field,
-                                   .what = what,
-                                   .expected = expected,
-                                   .next = "the header is damaged: get the file again or correct it"});
-}
 
 [[noreturn]] void unsupported(const std::string& path, const std::string& what, const std::string& expected, const std::string& next) {
     throw Error(ErrorKind::unsupported, {.file = path, .where = "header", .what = what, .expected = expected, .next = next});
