@@ -23,8 +23,8 @@ namespace {
 constexpr int kHalfMode = 12;
 
 bool has_name_of_maps(const std::string& path) {
-    constexpr std::array<std::string_view, 7> kEnds{".mrc", ".map", ".ccp4", ".rec", ".st", ".ali", ".mrcs"};
-    return std::any_of(kEnds.begin(), kEnds.end(), [&](std::string_view end) { return ends_with_ignoring_case(path, end); });
+    constexpr std::array<std::string_view, 7> kMapNames{".mrc", ".map", ".ccp4", ".rec", ".st", ".ali", ".mrcs"};
+    return std::any_of(kMapNames.begin(), kMapNames.end(), [&](std::string_view end) { return ends_with_ignoring_case(path, end); });
 }
 
 MrcHeader read_mrc_header(const std::string& path) {
