@@ -185,7 +185,7 @@ def read(path: Path, *, missing: Union[None, str, float] = None, no_data: Option
     Parameters
     ----------
     path : path
-        NRRD, NIfTI, MetaImage, TIFF, VTI, NPY, MRC or RAW; or a store.
+        NRRD, NIfTI, MetaImage, TIFF, VTI, legacy VTK, NPY, MRC or RAW; or a store.
     **reading
         dims, type, endian, skip, spacing, ... as :func:`isoatlas.open`.
     """

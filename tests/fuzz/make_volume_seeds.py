@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Writes the seeds of the NRRD, MetaImage, NumPy, MRC and RAW targets into tests/fuzz/corpus (the files are committed; this says how they were made)."""
+"""Writes the seeds of the NRRD, MetaImage, NumPy, MRC, legacy VTK and RAW targets into tests/fuzz/corpus (the files are committed; this says how they were made)."""
 import gzip
 import pathlib
 import struct
@@ -56,6 +56,18 @@ def main():
     write("mrc", "turned", mrc(0, axes=(3, 1, 2), angles=(90, 94.3, 90), start=(0, -21, -12)) + SAMPLES[:24])
     write("mrc", "stack", mrc(0, space_group=401, cells=(2, 3, 2), origin=(1, 2, 3)) + SAMPLES[:24])
     write("mrc", "image", mrc(0, size=(6, 4, 1), space_group=0) + SAMPLES[:24])
+
+    grid = "DIMENSIONS 2 3 4\nORIGIN 1 2 3\nSPACING 1 -2 0.5\n"
+    head = lambda encoding, kind="STRUCTURED_POINTS": f"# vtk DataFile Version 3.0\nseed\n{encoding}\nDATASET {kind}\n"
+    numbers = " ".join(map(str, range(24))) + "\n"
+    scalars = "SCALARS values {} 1\nLOOKUP_TABLE default\n"
+    write("vtk_legacy", "text", (head("ASCII") + grid + "POINT_DATA 24\n" + scalars.format("short") + numbers).encode())
+    write("vtk_legacy", "binary", (head("BINARY") + grid + "POINT_DATA 24\n" + scalars.format("unsigned_short")).encode() + SAMPLES + b"\n")
+    cells = "CELL_DATA 6\nFIELD FieldData 2\nfirst 3 6 char\n" + "1 2 3 " * 6 + "\nMETADATA\nINFORMATION 0\n\nsecond 1 6 float\n1 2 3 4 5 6\n"
+    write("vtk_legacy", "cells", (head("ASCII") + grid + cells).encode())
+    write("vtk_legacy", "both", (head("ASCII") + grid + cells + "POINT_DATA 24\nVECTORS v float\n" + 3 * numbers + scalars.format("int") + numbers).encode())
+    lines = "DIMENSIONS 2 3 4\nX_COORDINATES 2 float\n0 1\nY_COORDINATES 3 double\n0 1 3\nZ_COORDINATES 4 int\n0 1 2 9\n"
+    write("vtk_legacy", "lines", (head("ASCII", "RECTILINEAR_GRID") + lines + "POINT_DATA 24\nCOLOR_SCALARS c 1\n" + numbers + "SCALARS s float\n" + numbers).encode())
 
     meta = (
         "ObjectType = Image\nNDims = 3\nBinaryData = True\nBinaryDataByteOrderMSB = True\nTransformMatrix = 1 0 0 0 1 0 0 0 1\n"

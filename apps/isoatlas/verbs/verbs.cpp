@@ -203,7 +203,7 @@ std::string overview() {
     text +=
         "\nEvery verb has --help with examples, --json for one JSON document on standard output, --quiet and --threads N.\n"
         "Results go to standard output, messages and progress to standard error.\n"
-        "Reads RAW, NRRD/NHDR, MHD/MHA, NIfTI-1, NumPy .npy, VTK .vti, MRC maps, TIFF files and folders of TIFF slices.\n"
+        "Reads RAW, NRRD/NHDR, MHD/MHA, NIfTI-1, NumPy .npy, VTK .vti and .vtk, MRC maps, TIFF files and folders of TIFF slices.\n"
         "\nExit codes: 0 done, 1 bug, 2 usage, 3 input damaged or missing, 4 format not supported, 5 cannot write or out of memory,\n"
         "6 no such object or isovalue, 7 a guarantee does not hold, 130 interrupted.\n";
     return text;

@@ -63,6 +63,8 @@ std::vector<double> cell_centres(const std::vector<double>& points) {
     return centres;
 }
 
+std::string coordinates_of(std::size_t axis) { return "Coordinates, axis " + std::to_string(axis); }
+
 template <class T>
 std::vector<double> convert(const std::vector<std::byte>& bytes) {
     const T* values = reinterpret_cast<const T*>(bytes.data());
@@ -106,18 +108,14 @@ void set_image_geometry(const pugi::xml_node& grid, const VtkExtent& points, boo
     }
 }
 
-Geometry rectilinear_geometry(const std::string& path, const pugi::xml_node& piece, const VtkExtent& points, bool cells,
-                              const CoordinateReader& read) {
+Geometry rectilinear_geometry(const std::string& path, std::array<std::vector<double>, 3> coordinates, bool cells) {
     Geometry geometry;
-    pugi::xml_node node = piece.child("Coordinates").child("DataArray");
-    for (std::size_t axis = 0; axis < 3; ++axis, node = node.next_sibling("DataArray")) {
-        const std::string where = "Coordinates, axis " + std::to_string(axis);
-        if (!node) bad_field(path, where, "the array is missing", "three arrays");
-        std::vector<double> values = read(node, points.size[axis]);
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        std::vector<double>& values = coordinates[axis];
         for (std::size_t i = 0; i < values.size(); ++i) {
             if (std::isfinite(values[i]) && (i == 0 || values[i] > values[i - 1])) continue;
             throw Error(ErrorKind::unsupported, {.file = path,
-                                                 .where = where + ", number " + std::to_string(i),
+                                                 .where = coordinates_of(axis) + ", number " + std::to_string(i),
                                                  .what = "the coordinates do not ascend",
                                                  .expected = "ascending finite numbers",
                                                  .next = "flip or sort the axis, with its samples, before writing the file"});
@@ -125,6 +123,17 @@ Geometry rectilinear_geometry(const std::string& path, const pugi::xml_node& pie
         geometry.coordinates[axis] = cells ? cell_centres(values) : std::move(values);
     }
     return geometry;
+}
+
+Geometry rectilinear_geometry(const std::string& path, const pugi::xml_node& piece, const VtkExtent& points, bool cells,
+                              const CoordinateReader& read) {
+    std::array<std::vector<double>, 3> coordinates;
+    pugi::xml_node node = piece.child("Coordinates").child("DataArray");
+    for (std::size_t axis = 0; axis < 3; ++axis, node = node.next_sibling("DataArray")) {
+        if (!node) bad_field(path, coordinates_of(axis), "the array is missing", "three arrays");
+        coordinates[axis] = read(node, points.size[axis]);
+    }
+    return rectilinear_geometry(path, std::move(coordinates), cells);
 }
 
 std::vector<double> read_doubles(const VtkFile& file, const VtkArray& array, ValueType type, std::int64_t count) {

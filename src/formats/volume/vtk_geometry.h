@@ -35,6 +35,9 @@ using CoordinateReader = std::function<std::vector<double>(const pugi::xml_node&
 [[nodiscard]] Geometry rectilinear_geometry(const std::string& path, const pugi::xml_node& piece, const VtkExtent& points, bool cells,
                                             const CoordinateReader& read);
 
+/// The same from the coordinates of the points.
+[[nodiscard]] Geometry rectilinear_geometry(const std::string& path, std::array<std::vector<double>, 3> coordinates, bool cells);
+
 /// All numbers of a data array, which are of this type.
 [[nodiscard]] std::vector<double> read_doubles(const VtkFile& file, const VtkArray& array, ValueType type, std::int64_t count);
 

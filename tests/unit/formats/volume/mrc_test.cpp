@@ -10,7 +10,7 @@
 #include "formats/volume/half_source.h"
 #include "isoatlas/output.h"
 #include "isoatlas/phantom.h"
-#include "unit/formats/volume/volume_files.h"
+#include "unit/formats/volume/hostile_files.h"
 
 namespace isoatlas {
 namespace {
@@ -182,6 +182,13 @@ TEST(Mrc, Refusals) {
     refused(MrcFile({0x7fffffff, 0x7fffffff, 0x7fffffff}, 2).bytes(eight), ErrorKind::input, "63 bits");
     refused(MrcFile({0x7fffffff, 0x7fffffff, 1}, 0).bytes(eight), ErrorKind::input, "8");
     refused(MrcFile({2, 2, 2}, 0).put(23, std::int32_t{0x7fffffff}).bytes(eight), ErrorKind::input, "");
+}
+
+TEST(Mrc, Damage) {
+    const std::string content = MrcFile({2, 3, 4}, 1).bytes(test::telling_bytes(48));
+    test::expect_truncations_refused("v.mrc", content);
+    test::expect_bit_flips_harmless("v.mrc", content, 0, 240, 2);
+    test::expect_bit_flips_harmless("v.mrc", MrcFile({2, 3, 4}, 12).bytes(test::telling_bytes(48)), 0, 240, 2);
 }
 
 TEST(Mrc, WhatIsWrittenComesBack) {

@@ -1,0 +1,108 @@
+// Legacy VTK files (.vtk): STRUCTURED_POINTS and RECTILINEAR_GRID, text and binary; the first array with one number for each point, or
+// for each cell where no array has one for each point.
+#include <array>
+#include <cmath>
+#include <string_view>
+#include <utility>
+
+#include "formats/common/byte_source.h"
+#include "formats/common/text.h"
+#include "formats/volume/axes.h"
+#include "formats/volume/formats.h"
+#include "formats/volume/sample_reader.h"
+#include "formats/volume/vtk_legacy_file.h"
+
+namespace isoatlas {
+namespace {
+
+constexpr std::string_view kFirstLine = "# vtk DataFile Version";
+
+std::vector<double> numbers_of(const VtkLegacyFile& file, const VtkLegacyArray& array) {
+    VolumeInfo line;
+    line.path = file.path;
+    line.type = *array.type;
+    line.big_endian = file.is_big_endian();
+    line.extent = {.rank = 3, .size = {array.tuples, 1, 1}};
+    const std::unique_ptr<VolumeReader> reader = make_sample_reader(line, file.open(array), {});
+    std::vector<std::byte> bytes(static_cast<std::size_t>(array.tuples) * size_of(line.type));
+    reader->read(0, 1, bytes);
+    return visit_type(line.type, [&]<class T>(T) {
+        const T* values = reinterpret_cast<const T*>(bytes.data());
+        return std::vector<double>(values, values + array.tuples);
+    });
+}
+
+Geometry rectilinear(const VtkLegacyFile& file, bool cells) {
+    std::array<std::vector<double>, 3> coordinates;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        const VtkLegacyArray& array = file.coordinates[axis];
+        if (array.tuples != file.points.size[axis]) {
+            throw Error(ErrorKind::input, {.file = file.path,
+                                           .where = "coordinates of axis " + std::to_string(axis),
+                                           .what = std::to_string(array.tuples) + " coordinates",
+                                           .expected = std::to_string(file.points.size[axis]),
+                                           .next = "the file is damaged: get it again or correct it"});
+        }
+        coordinates[axis] = numbers_of(file, array);
+    }
+    return rectilinear_geometry(file.path, std::move(coordinates), cells);
+}
+
+void set_regular_geometry(const VtkLegacyFile& file, bool cells, VolumeInfo& info) {
+    info.geometry.origin = file.origin;
+    for (int axis = 0; axis < 3; ++axis) {
+        Vec3 step{};
+        step[axis] = file.spacing[axis];
+        set_axis_step(info, axis, step);
+        if (cells && file.points.size[axis] > 1 && std::isfinite(step[axis])) info.geometry.origin[axis] += step[axis] / 2;
+    }
+    for (double& place : info.geometry.origin) {
+        if (std::isfinite(place)) continue;
+        info.notes.emplace_back("the origin of the file is not finite: 0 is used");
+        place = 0;
+    }
+}
+
+[[noreturn]] void no_samples(const VtkLegacyFile& file) {
+    std::string names;
+    for (const std::string& name : file.others) names += (names.empty() ? "" : ", ") + in_quotes(name);
+    throw Error(ErrorKind::unsupported,
+                {.file = file.path,
+                 .what = "has no array with one number for each point or cell" + (names.empty() ? "" : "; it has " + names),
+                 .expected = "SCALARS of 8 to 32-bit integers, float or double",
+                 .next = "save one component, e.g. in ParaView with the filter Calculator"});
+}
+
+}  // namespace
+
+bool looks_like_vtk_legacy(FirstBytes first, const std::string&) {
+    return std::string_view(reinterpret_cast<const char*>(first.data()), first.size()).starts_with(kFirstLine);
+}
+
+std::unique_ptr<VolumeReader> open_vtk_legacy(const std::string& path, const OpenOptions& options) {
+    const VtkLegacyFile file = read_vtk_legacy(path);
+    if (!file.samples) no_samples(file);
+    const VtkLegacyArray& samples = *file.samples;
+    (void)choose_time_step(path, options, 1);
+    VolumeInfo info;
+    info.path = path;
+    info.format = "VTK legacy";
+    info.encoding = file.binary ? "raw" : "ascii";
+    info.file_bytes = file_size(path);
+    info.type = *samples.type;
+    info.big_endian = file.is_big_endian();
+    info.description = file.title;
+    info.extent = file.points.samples(samples.cells);
+    (void)sample_bytes(path, info.extent, info.type);
+    info.notes.push_back("the array " + in_quotes(samples.name) + (samples.cells ? ", of the cells" : ""));
+    if (samples.slope != 1) set_calibration(info, samples.slope, 0);
+    if (file.rectilinear)
+        info.geometry = rectilinear(file, samples.cells);
+    else
+        set_regular_geometry(file, samples.cells, info);
+    if (info.extent.rank == 2) info.notes.emplace_back("the grid has a single slice along z: read as a 2D image");
+    std::unique_ptr<ByteSource> source = file.open(samples);
+    return make_sample_reader(std::move(info), std::move(source), options);
+}
+
+}  // namespace isoatlas
