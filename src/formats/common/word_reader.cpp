@@ -5,8 +5,8 @@
 namespace isoatlas {
 namespace {
 
-constexpr std::int64_t kBuffer = 64 * 1024;
-constexpr std::size_t kLongestWord = 256, kLongestLine = 4096;
+constexpr std::int64_t kBufferBytes = 64 * 1024;
+constexpr std::size_t kWordLimit = 256, kLineLimit = 4096;
 
 bool is_white(char c) { return c == ' ' || (c >= '\t' && c <= '\r'); }
 
@@ -15,7 +15,7 @@ bool is_white(char c) { return c == ' ' || (c >= '\t' && c <= '\r'); }
 bool WordReader::has_next() {
     if (at_ < buffer_.size()) return true;
     buffer_begin_ = position(), at_ = 0;
-    buffer_.resize(static_cast<std::size_t>(std::min(kBuffer, size_ - buffer_begin_)));
+    buffer_.resize(static_cast<std::size_t>(std::min(kBufferBytes, size_ - buffer_begin_)));
     if (buffer_.empty()) return false;
     source_->seek(buffer_begin_);
     source_->read(buffer_);
@@ -35,7 +35,7 @@ void WordReader::go_to(std::int64_t position) {
 std::string WordReader::word() {
     while (has_next() && is_white(peek())) ++at_;
     std::string word;
-    while (word.size() < kLongestWord && has_next() && !is_white(peek())) word += next();
+    while (word.size() < kWordLimit && has_next() && !is_white(peek())) word += next();
     return word;
 }
 
@@ -44,7 +44,7 @@ std::string WordReader::line() {
     while (has_next()) {
         const char c = next();
         if (c == '\n') break;
-        if (line.size() < kLongestLine) line += c;
+        if (line.size() < kLineLimit) line += c;
     }
     if (line.ends_with('\r')) line.pop_back();
     return line;

@@ -13,7 +13,7 @@
 namespace isoatlas {
 namespace {
 
-constexpr std::int64_t kLargestSize = std::int64_t{1} << 40, kMost = std::numeric_limits<std::int64_t>::max();
+constexpr std::int64_t kLargestSize = std::int64_t{1} << 40, kAnyCount = std::numeric_limits<std::int64_t>::max();
 
 struct NumberType {
     std::string_view name;
@@ -122,7 +122,7 @@ private:
         is_cell_data_ = cells;
         const Extent extent = file_.points.samples(cells);
         const std::int64_t count = sample_bytes(file_.path, extent, ValueType::u8);
-        tuples_ = integer(0, kMost, "the number of values");
+        tuples_ = integer(0, kAnyCount, "the number of values");
         (void)words_.line();
         if (tuples_ != count) bad(std::to_string(tuples_) + " values on a grid with " + std::to_string(count), std::to_string(count));
     }
