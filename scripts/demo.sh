@@ -87,7 +87,7 @@ $out/tree.json         the criticality tree: every topological change, with its 
 $out/object_N.$extension      the surface of object N at its best isovalue (any mesh viewer opens it)
 
 Next:
-  make demo VOLUME=your_file              the same for your data (NRRD, NIfTI, MHA, NPY, VTI, TIFF, RAW)
+  make demo VOLUME=your_file              the same for your data (NRRD, NIfTI, MHA, NPY, VTI, VTK, TIFF, MRC, RAW)
   $isoatlas --help       everything else
   make install PREFIX=~/.local            puts isoatlas and the C++ library there
   $isoatlas view $out/demo.atlas     explore it in a browser
