@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 """A store beside VTK: surfaces from the store against Flying Edges over the volume in memory (warm) and against reading the volume file and
-contouring it (cold); one small object; opening; building beside an analysis in memory. Answers first, then medians of runs in turns.
+contouring it (cold); one small object; opening. builds.py measures what building costs. Answers first, then medians of runs in turns.
 
-    compare_vtk.py BENCH_STORE [--volumes smooth-512 ...] [--active 0.002 0.02 0.1 0.5] [--threads 2] [--pairs 3] [--builds 2]
+    compare_vtk.py BENCH_STORE [--volumes smooth-512 ...] [--active 0.002 0.02 0.1 0.5] [--threads 2] [--pairs 3]
                    [--cache FOLDER] [--data FOLDER] [--json FILE]
 
 A quick look: --volumes smooth-64 white-64 --pairs 2. Cold files: their pages are dropped before every run; "cold disk" says what then
@@ -88,26 +88,10 @@ def object_record(program, store, volume, tau, arguments):
             "kB": result["bytes"] / 1e3, "reads": result["extents"], "cold disk kB": result["cold_disk_bytes"] / 1e3}
 
 
-def build_record(volume, built):
-    seconds, analysis = statistics.median(built["seconds"]), statistics.median(built["analysis_seconds"])
-    return {"volume": volume, "size": "x".join(map(str, built["size"])), "type": built["type"],
-            "build, s": seconds, "analysis in memory, s": analysis,
-            "build / analysis": statistics.median(b / a for a, b in zip(built["analysis_seconds"], built["seconds"])),
-            "its answers in memory, s": statistics.median(built["answers_seconds"]),
-            "build / answers": statistics.median(b / a for a, b in zip(built["answers_seconds"], built["seconds"])),
-            "ns a voxel": 1e9 * seconds / built["voxels"], "peak bytes a voxel": built["peak_bytes"] / built["voxels"],
-            "bytes a voxel": built["bytes_per_voxel"], "bytes of a sample": built["sample_bytes"],
-            "bytes / raw": built["bytes_per_voxel"] / built["sample_bytes"]}
-
-
 def measure(volume, arguments, document):
     program, cache = arguments.program, Path(arguments.cache)
     store = cache / f"{volume}.atlas"
-    built = ours(program, "build", volume, store, *sources(arguments), "--threads", arguments.threads, "--analysis",
-                 "--repeats", arguments.builds)
-    document["builds"].append(build_record(volume, built))
-    document["phases"].append({"volume": volume} | {phase: round(s, 3) for phase, s in built["phases"]})
-    print(document["builds"][-1], flush=True)
+    built = ours(program, "build", volume, store, *sources(arguments), "--threads", arguments.threads, "--repeats", 1)
     field = Field(cache / f"{volume}.raw", built["size"], built["type"])
     image, isovalues = field.image(), field.isovalues_of(arguments.active)
     for tau in isovalues:
@@ -124,10 +108,9 @@ def main():
     add_options(parser, VOLUMES, pairs=3)
     parser.add_argument("--active", type=float, nargs="+", default=[0.002, 0.02, 0.1, 0.5], help="fractions of active cells")
     parser.add_argument("--threads", type=int, default=2)
-    parser.add_argument("--builds", type=int, default=2, help="of a store, each after an analysis in memory")
     arguments = parser.parse_args()
     vtk.vtkSMPTools.Initialize(arguments.threads)
-    document = {"threads": arguments.threads, "pairs": arguments.pairs, "builds": [], "phases": [], "surfaces": [], "objects": []}
+    document = {"threads": arguments.threads, "pairs": arguments.pairs, "surfaces": [], "objects": []}
     for volume in chosen(arguments, VOLUMES):
         measure(volume, arguments, document)
     if arguments.json:

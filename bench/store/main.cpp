@@ -128,18 +128,18 @@ ordered_json build(const Arguments& arguments) {
     const isoatlas::Volume volume = make(arguments.word(1), arguments.sources);
     ordered_json seconds = ordered_json::array(), analysis = ordered_json::array(), answers = ordered_json::array();
     std::int64_t peak_bytes = 0;
-    ordered_json phases;  // of the last build
+    ordered_json phases = ordered_json::object();  // of the last build
     for (int i = 0; i < arguments.repeats; ++i) {
         PhaseClock clock;
-        if (arguments.analysis) {
-            std::optional<isoatlas::Analysis> analysed;
-            analysis.push_back(seconds_of([&] { analysed.emplace(isoatlas::analyse(volume, {}, arguments.context)); }));
-            answers.push_back(analysis.back().get<double>() + seconds_of([&] { answer(volume, *analysed, arguments.context); }));
-        }
         const std::int64_t before = reset_peak();
         seconds.push_back(seconds_of([&] { isoatlas::build_atlas(arguments.word(2), volume, {}, clock.watched(arguments.context)); }));
-        phases = clock.phases();
-        peak_bytes = std::max(peak_bytes, peak() - before);
+        if (i == 0) peak_bytes = peak() - before;  // before analyses leave memory to the process
+        for (const auto& [phase, time] : clock.phases()) phases[phase] = time;
+        if (!arguments.analysis) continue;
+        std::optional<isoatlas::Analysis> analysed;
+        analysis.push_back(seconds_of([&] { analysed.emplace(isoatlas::analyse(volume, {}, arguments.context)); }));
+        if (!phases.contains("objects")) continue;  // the store has no answers but those of the analysis
+        answers.push_back(analysis.back().get<double>() + seconds_of([&] { answer(volume, *analysed, arguments.context); }));
     }
     const auto bytes = static_cast<std::int64_t>(std::filesystem::file_size(arguments.word(2)));
     const std::int64_t voxels = volume.info.extent.voxels();
