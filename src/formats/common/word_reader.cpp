@@ -2,13 +2,13 @@
 
 #include <algorithm>
 
+#include "formats/common/byte_cursor.h"
+
 namespace isoatlas {
 namespace {
 
 constexpr std::int64_t kBufferBytes = 64 * 1024;
 constexpr std::size_t kWordLimit = 256, kLineLimit = 4096;
-
-bool is_white(char c) { return c == ' ' || (c >= '\t' && c <= '\r'); }
 
 }  // namespace
 
@@ -33,9 +33,9 @@ void WordReader::go_to(std::int64_t position) {
 }
 
 std::string WordReader::word() {
-    while (has_next() && is_white(peek())) ++at_;
+    while (has_next() && ByteCursor::is_space(peek())) ++at_;
     std::string word;
-    while (word.size() < kWordLimit && has_next() && !is_white(peek())) word += next();
+    while (word.size() < kWordLimit && has_next() && !ByteCursor::is_space(peek())) word += next();
     return word;
 }
 
@@ -52,9 +52,9 @@ std::string WordReader::line() {
 
 bool WordReader::skip_words(std::int64_t count) {
     for (std::int64_t i = 0; i < count; ++i) {
-        while (has_next() && is_white(peek())) ++at_;
+        while (has_next() && ByteCursor::is_space(peek())) ++at_;
         if (!has_next()) return false;
-        while (has_next() && !is_white(peek())) ++at_;
+        while (has_next() && !ByteCursor::is_space(peek())) ++at_;
     }
     return true;
 }

@@ -25,7 +25,6 @@ public:
     [[nodiscard]] std::int64_t position() const { return buffer_begin_ + static_cast<std::int64_t>(at_); }
     [[nodiscard]] std::int64_t left() const { return size_ - position(); }
     void go_to(std::int64_t position);
-    [[nodiscard]] const std::string& file() const { return source_->file(); }
 
 private:
     [[nodiscard]] bool has_next();  ///< fills the buffer

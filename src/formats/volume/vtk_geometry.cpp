@@ -6,6 +6,7 @@
 
 #include "formats/common/text.h"
 #include "formats/volume/axes.h"
+#include "formats/volume/bad_header.h"
 #include "formats/volume/sample_reader.h"
 
 namespace isoatlas {
@@ -13,14 +14,6 @@ namespace isoatlas {
 namespace {
 
 constexpr std::int64_t kLargestIndex = std::int64_t{1} << 40;
-
-[[noreturn]] void bad_field(const std::string& path, const std::string& where, const std::string& what, const std::string& expected) {
-    throw Error(ErrorKind::input, {.file = path,
-                                   .where = where,
-                                   .what = what,
-                                   .expected = expected,
-                                   .next = "the header is damaged: get the file again or correct it"});
-}
 
 VtkExtent parse_extent(const std::string& path, const pugi::xml_node& node, const char* name) {
     const std::string_view text = node.attribute(name).value();
@@ -64,12 +57,6 @@ std::vector<double> cell_centres(const std::vector<double>& points) {
 }
 
 std::string coordinates_of(std::size_t axis) { return "Coordinates, axis " + std::to_string(axis); }
-
-template <class T>
-std::vector<double> convert(const std::vector<std::byte>& bytes) {
-    const T* values = reinterpret_cast<const T*>(bytes.data());
-    return std::vector<double>(values, values + bytes.size() / sizeof(T));
-}
 
 }  // namespace
 
@@ -136,29 +123,28 @@ Geometry rectilinear_geometry(const std::string& path, const pugi::xml_node& pie
     return rectilinear_geometry(path, std::move(coordinates), cells);
 }
 
-std::vector<double> read_doubles(const VtkFile& file, const VtkArray& array, ValueType type, std::int64_t count) {
+std::vector<double> read_doubles(const std::string& path, std::unique_ptr<ByteSource> numbers, ValueType type, bool big_endian,
+                                 std::int64_t count, const OpenOptions& options) {
     VolumeInfo line;
-    line.path = file.path;
+    line.path = path;
     line.type = type;
-    line.big_endian = array.format == VtkFormat::ascii ? needs_swap(false) : file.big_endian;
+    line.big_endian = big_endian;
     line.extent = {.rank = 3, .size = {count, 1, 1}};
-    (void)sample_bytes(file.path, line.extent, line.type);
-    OpenOptions options;
-    options.skip_rest = file.skip_rest;
-    const std::unique_ptr<VolumeReader> reader = make_sample_reader(line, open_vtk_array(file, array, type, count), options);
+    const std::unique_ptr<VolumeReader> reader = make_sample_reader(line, std::move(numbers), options);
     std::vector<std::byte> bytes(static_cast<std::size_t>(count) * size_of(type));
     reader->read(0, 1, bytes);
-    switch (type) {
-        case ValueType::u8: return convert<std::uint8_t>(bytes);
-        case ValueType::i8: return convert<std::int8_t>(bytes);
-        case ValueType::u16: return convert<std::uint16_t>(bytes);
-        case ValueType::i16: return convert<std::int16_t>(bytes);
-        case ValueType::u32: return convert<std::uint32_t>(bytes);
-        case ValueType::i32: return convert<std::int32_t>(bytes);
-        case ValueType::f32: return convert<float>(bytes);
-        case ValueType::f64: break;
-    }
-    return convert<double>(bytes);
+    return visit_type(type, [&]<class T>(T) {
+        const T* values = reinterpret_cast<const T*>(bytes.data());
+        return std::vector<double>(values, values + count);
+    });
+}
+
+std::vector<double> read_doubles(const VtkFile& file, const VtkArray& array, ValueType type, std::int64_t count) {
+    (void)sample_bytes(file.path, {.rank = 3, .size = {count, 1, 1}}, type);
+    OpenOptions options;
+    options.skip_rest = file.skip_rest;
+    const bool big_endian = array.format == VtkFormat::ascii ? needs_swap(false) : file.big_endian;
+    return read_doubles(file.path, open_vtk_array(file, array, type, count), type, big_endian, count, options);
 }
 
 }  // namespace isoatlas

@@ -38,7 +38,9 @@ using CoordinateReader = std::function<std::vector<double>(const pugi::xml_node&
 /// The same from the coordinates of the points.
 [[nodiscard]] Geometry rectilinear_geometry(const std::string& path, std::array<std::vector<double>, 3> coordinates, bool cells);
 
-/// All numbers of a data array, which are of this type.
+/// All numbers of a source, or of a data array, which are of this type.
+[[nodiscard]] std::vector<double> read_doubles(const std::string& path, std::unique_ptr<ByteSource> numbers, ValueType type,
+                                               bool big_endian, std::int64_t count, const OpenOptions& options = {});
 [[nodiscard]] std::vector<double> read_doubles(const VtkFile& file, const VtkArray& array, ValueType type, std::int64_t count);
 
 }  // namespace isoatlas

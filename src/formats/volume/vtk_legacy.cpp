@@ -8,6 +8,7 @@
 #include "formats/common/byte_source.h"
 #include "formats/common/text.h"
 #include "formats/volume/axes.h"
+#include "formats/volume/bad_header.h"
 #include "formats/volume/formats.h"
 #include "formats/volume/sample_reader.h"
 #include "formats/volume/vtk_legacy_file.h"
@@ -17,33 +18,16 @@ namespace {
 
 constexpr std::string_view kFirstLine = "# vtk DataFile Version";
 
-std::vector<double> numbers_of(const VtkLegacyFile& file, const VtkLegacyArray& array) {
-    VolumeInfo line;
-    line.path = file.path;
-    line.type = *array.type;
-    line.big_endian = file.is_big_endian();
-    line.extent = {.rank = 3, .size = {array.tuples, 1, 1}};
-    const std::unique_ptr<VolumeReader> reader = make_sample_reader(line, file.open(array), {});
-    std::vector<std::byte> bytes(static_cast<std::size_t>(array.tuples) * size_of(line.type));
-    reader->read(0, 1, bytes);
-    return visit_type(line.type, [&]<class T>(T) {
-        const T* values = reinterpret_cast<const T*>(bytes.data());
-        return std::vector<double>(values, values + array.tuples);
-    });
-}
-
 Geometry rectilinear(const VtkLegacyFile& file, bool cells) {
     std::array<std::vector<double>, 3> coordinates;
     for (std::size_t axis = 0; axis < 3; ++axis) {
         const VtkLegacyArray& array = file.coordinates[axis];
-        if (array.tuples != file.points.size[axis]) {
-            throw Error(ErrorKind::input, {.file = file.path,
-                                           .where = "coordinates of axis " + std::to_string(axis),
-                                           .what = std::to_string(array.tuples) + " coordinates",
-                                           .expected = std::to_string(file.points.size[axis]),
-                                           .next = "the file is damaged: get it again or correct it"});
+        const std::int64_t count = file.points.size[axis];
+        if (array.tuples != count) {
+            bad_field(file.path, "coordinates of axis " + std::to_string(axis), std::to_string(array.tuples) + " coordinates",
+                      std::to_string(count));
         }
-        coordinates[axis] = numbers_of(file, array);
+        coordinates[axis] = read_doubles(file.path, file.open(array), *array.type, file.is_big_endian(), count);
     }
     return rectilinear_geometry(file.path, std::move(coordinates), cells);
 }
