@@ -11,6 +11,7 @@
 #include <stdexcept>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace isoatlas {
 
@@ -52,6 +53,17 @@ enum class Reason : std::uint16_t {
     time_step_needed,        ///< the file has more than one volume; value: the last OpenOptions::time_step
     no_such_time_step,       ///< OpenOptions::time_step is larger than the last one, which is the value
     no_time_steps,           ///< the file has one volume
+    channel_needed,          ///< the file has several channels: ErrorText::choices are words for OpenOptions::channel
+    no_such_channel,         ///< likewise
+    no_channels,             ///< the file has one channel
+    series_needed,           ///< a folder has several series: ErrorText::choices are words for OpenOptions::series
+    no_such_series,          ///< likewise
+    no_series,               ///< OpenOptions::series is for DICOM
+    dataset_needed,          ///< a file has several arrays that could be a volume: ErrorText::choices are words for OpenOptions::dataset
+    no_such_dataset,         ///< likewise
+    no_datasets,             ///< OpenOptions::dataset is for files of many arrays
+    no_such_level,           ///< OpenOptions::level is larger than the last one, which is the value
+    built_without_format,    ///< this build of isoatlas lacks the library for a format; value: the library
     missing_samples,         ///< NaN, infinite or no-data values; MissingPolicy says what to put in their place
     only_missing_samples,    ///< there are no others
     replacement_not_stored,  ///< MissingPolicy::value is not a value of the type of the samples
@@ -97,6 +109,13 @@ enum class Reason : std::uint16_t {
 /// nullopt: there is no reason of this name.
 [[nodiscard]] std::optional<Reason> reason_of(std::string_view name);
 
+/// One of the things to choose from, for an error that asks for a choice.
+struct ErrorChoice {
+    std::string word{};   ///< that chooses it
+    std::string about{};  ///< what it is: "512 x 512 x 100 uint16"
+    bool operator==(const ErrorChoice&) const = default;
+};
+
 /// The parts of an error message. Empty parts are left out.
 struct ErrorText {
     std::string file{};      ///< path of the file concerned
@@ -105,7 +124,8 @@ struct ErrorText {
     std::string expected{};  ///< what was expected instead
     std::string next{};      ///< what the caller can do, in words of the API
     Reason reason = Reason::none;
-    std::string value{};  ///< that goes with the reason (see there); not part of the message
+    std::string value{};                 ///< that goes with the reason (see there); not part of the message
+    std::vector<ErrorChoice> choices{};  ///< with reasons that name them; the message has their words
 };
 
 /// "FILE: WHERE: WHAT (expected EXPECTED). Next: NEXT"

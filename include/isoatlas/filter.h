@@ -8,13 +8,6 @@
 
 namespace isoatlas {
 
-/// Samples [begin, end) of each axis. 2D: begin[2] = 0, end[2] = 1.
-struct SampleBox {
-    Index3 begin, end;
-    [[nodiscard]] Index3 size() const { return end - begin; }
-    bool operator==(const SampleBox&) const = default;
-};
-
 /// The part of a volume in a box, where it lies in space. Throws Error{usage} when the box is empty or exceeds the volume. Cost: O(box).
 [[nodiscard]] Volume crop(const Volume& volume, const SampleBox& box);
 

@@ -98,6 +98,32 @@ struct Calibration {
     bool operator==(const Calibration&) const = default;
 };
 
+/// Samples [begin, end) of each axis. 2D: begin[2] = 0, end[2] = 1.
+struct SampleBox {
+    Index3 begin, end;
+    [[nodiscard]] Index3 size() const { return end - begin; }
+    bool operator==(const SampleBox&) const = default;
+};
+/// Whether a box has samples and lies in the extent.
+[[nodiscard]] bool is_inside(const SampleBox& box, const Extent& extent);
+/// Where the samples of a box lie in space. The caller guarantees is_inside().
+[[nodiscard]] Geometry geometry_of(const Geometry& whole, const SampleBox& box);
+
+/// Channels, time steps and resolution levels of a file, and which of them a volume is.
+struct FileVolumes {
+    std::vector<std::string> channels;  ///< their names, "" where the file gives none; empty: one channel without a name
+    std::int64_t channel = 0;
+    std::int64_t time_steps = 1;
+    std::int64_t time_step = 0;
+    std::vector<double> times;  ///< of the time steps, in time_unit; empty: the file does not say
+    std::string time_unit;
+    std::vector<Index3> levels;  ///< their sizes, the finest first; empty: one level
+    std::int64_t level = 0;
+    bool has_datasets = false;  ///< a file of many arrays: OpenOptions::dataset
+    bool has_series = false;    ///< OpenOptions::series
+    bool operator==(const FileVolumes&) const = default;
+};
+
 /// Description of a volume file, from its header alone.
 struct VolumeInfo {
     std::string path;       ///< as the user gave it
@@ -112,7 +138,9 @@ struct VolumeInfo {
     std::string value_unit;          ///< of sample values, if the file says
     std::string description;         ///< free text of the file, if any
     double gaussian = 0;             ///< sigma of the filter that made the samples (filter.h), in the unit of the spacing; 0: none
-    bool slab_readable = false;      ///< uncompressed: any slab is read without reading what precedes it
+    bool slab_readable = false;      ///< any slab is read without reading what precedes it
+    Index3 chunk{0, 0, 0};           ///< the samples lie in chunks of this size, each read as a whole; zeros: in slices
+    FileVolumes volumes;             ///< what else the file holds
     std::int64_t file_bytes = 0;     ///< size of the file(s) on disk
     std::vector<std::string> notes;  ///< what the reader chose or ignored, for the user
 };
@@ -129,6 +157,9 @@ public:
     /// Behind the last slice a compressed stream is read on to its end, where its checksum is.
     /// Throws Error{input} when the file ends early or is corrupt. Cost: O(slab) time and memory.
     virtual void read(std::int64_t z_begin, std::int64_t z_end, std::span<std::byte> out) = 0;
+    /// Reads the samples of a box, x fastest; out.size() == box.size().product() * size_of(type). is_inside(box, info().extent).
+    /// Throws as read(). Cost: the slices or chunks that the box meets, and memory for one slice, or one chunk.
+    virtual void read_box(const SampleBox& box, std::span<std::byte> out);
 
 protected:
     VolumeInfo info_;
@@ -149,12 +180,23 @@ struct OpenOptions {
     std::optional<std::string> unit, value_unit;
     bool skip_rest = false;     ///< bytes behind the samples are left out, with a note; unset: they are Error{input}
     bool follow_links = false;  ///< a header may name files outside its folder (absolute paths, "..", links); unset: Error{input}
-    std::optional<std::int64_t> time_step;  ///< which volume of a 4D file; unset: a 4D file is an error that names this option
+    // Which volume of a file that holds several. Unset: such a file is an error that names the option and lists what is there
+    // (ErrorText::choices).
+    std::optional<std::int64_t> time_step;  ///< from 0
+    std::optional<std::string> channel;     ///< its name, or its number from 0
+    std::optional<std::string> series;      ///< of a DICOM folder: its identifier, or its number from 0
+    std::optional<std::int64_t> level;      ///< of a resolution pyramid, 0 (or unset) the finest
+    /// The path of an array inside a file of many, "/group/array"; as well FILE:/group/array as the path of the file.
+    std::optional<std::string> dataset;
+    std::optional<SampleBox> box;  ///< these samples alone, where they lie in space; nothing else is read, as far as the format allows
 };
 
 /// Chooses the reader by content and name. Allocates nothing in proportion to what a header claims.
-/// Throws Error: input (missing, truncated, contradictory), unsupported (4D without time_step, complex, 64-bit integers, ...).
+/// Throws Error: input (missing, truncated, contradictory), unsupported (complex, 64-bit integers, ...), usage (several volumes and no
+/// choice).
 [[nodiscard]] std::unique_ptr<VolumeReader> open_volume(const std::string& path, const OpenOptions& options = {});
+/// The samples of a box of a volume, as a volume. Throws Error{usage} when the box is empty or exceeds it.
+[[nodiscard]] std::unique_ptr<VolumeReader> box_reader(std::unique_ptr<VolumeReader> whole, const SampleBox& box);
 
 /// Policy for NaN and infinite samples (and, if given, a no-data value).
 struct MissingPolicy {

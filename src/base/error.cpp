@@ -41,6 +41,17 @@ const char* name_of(Reason reason) {
         case Reason::time_step_needed: return "time_step_needed";
         case Reason::no_such_time_step: return "no_such_time_step";
         case Reason::no_time_steps: return "no_time_steps";
+        case Reason::channel_needed: return "channel_needed";
+        case Reason::no_such_channel: return "no_such_channel";
+        case Reason::no_channels: return "no_channels";
+        case Reason::series_needed: return "series_needed";
+        case Reason::no_such_series: return "no_such_series";
+        case Reason::no_series: return "no_series";
+        case Reason::dataset_needed: return "dataset_needed";
+        case Reason::no_such_dataset: return "no_such_dataset";
+        case Reason::no_datasets: return "no_datasets";
+        case Reason::no_such_level: return "no_such_level";
+        case Reason::built_without_format: return "built_without_format";
         case Reason::missing_samples: return "missing_samples";
         case Reason::only_missing_samples: return "only_missing_samples";
         case Reason::replacement_not_stored: return "replacement_not_stored";

@@ -21,23 +21,6 @@ void check(const Extent& extent, const SampleBox& box) {
     }
 }
 
-Geometry part_of(const Geometry& geometry, const SampleBox& box) {
-    Geometry part = geometry;
-    Vec3 first{};  // axes with coordinates keep their origin
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-        std::vector<double>& c = part.coordinates[axis];
-        if (c.empty()) {
-            first[axis] = geometry.spacing[axis] * static_cast<double>(box.begin[axis]);
-        } else {
-            c = {c.begin() + box.begin[axis], c.begin() + box.end[axis]};
-        }
-    }
-    for (std::size_t row = 0; row < 3; ++row) {
-        for (std::size_t axis = 0; axis < 3; ++axis) part.origin[row] += geometry.direction[row][axis] * first[axis];
-    }
-    return part;
-}
-
 }  // namespace
 
 Volume crop(const Volume& volume, const SampleBox& box) {
@@ -47,7 +30,7 @@ Volume crop(const Volume& volume, const SampleBox& box) {
     Volume part = make_volume(extent, volume.info.type);
     part.info = volume.info;
     part.info.extent = extent;
-    part.info.geometry = part_of(volume.info.geometry, box);
+    part.info.geometry = geometry_of(volume.info.geometry, box);
     const std::size_t size = size_of(volume.info.type), row = static_cast<std::size_t>(extent.size[0]) * size;
     std::byte* to = part.bytes.data();
     for (std::int64_t z = box.begin[2]; z < box.end[2]; ++z) {

@@ -8,6 +8,7 @@
 #include "formats/common/byte_source.h"
 #include "formats/common/file_access.h"
 #include "formats/common/text.h"
+#include "formats/volume/choose.h"
 #include "formats/volume/formats.h"
 #include "formats/volume/raw_description.h"
 #include "isoatlas/text.h"
@@ -190,15 +191,44 @@ void check_agreement(const VolumeInfo& info, const OpenOptions& options) {
     if (options.skip_bytes && *options.skip_bytes != 0) contradiction(info.path, "skip_bytes", "samples where the header says");
 }
 
+/// Formats with one channel, one level and one array of samples do not look at these options.
+void check_choices(const VolumeInfo& info, const OpenOptions& options) {
+    const FileVolumes& volumes = info.volumes;
+    const std::vector<std::string> one{""};
+    if (volumes.channels.empty() && options.channel) (void)choose_channel(info.path, options, one);
+    if (volumes.levels.empty() && options.level) (void)choose_level(info.path, options, 1);
+    const auto refuse = [&](const char* name, Reason reason) {
+        throw Error(ErrorKind::usage,
+                    {.file = info.path,
+                     .what = std::string("a file of this format (") + info.format + ") has no " + name + " to choose from",
+                     .next = std::string("leave the ") + name + " out",
+                     .reason = reason});
+    };
+    if (options.dataset && !volumes.has_datasets) refuse("datasets", Reason::no_datasets);
+    if (options.series && !volumes.has_series) refuse("series", Reason::no_series);
+}
+
+/// FILE:/DATASET as the file and OpenOptions::dataset, unless a file has that name.
+std::pair<std::string, OpenOptions> without_dataset(const std::string& path, OpenOptions options) {
+    const std::size_t colon = path.find(":/");
+    const bool is_address = path.starts_with("http://") || path.starts_with("https://");
+    if (options.dataset || colon == 0 || colon == std::string::npos || is_address || anything_at(path)) return {path, options};
+    options.dataset = path.substr(colon + 1);
+    return {path.substr(0, colon), options};
+}
+
 }  // namespace
 
-std::unique_ptr<VolumeReader> open_volume(const std::string& path, const OpenOptions& options) {
+std::unique_ptr<VolumeReader> open_volume(const std::string& given, const OpenOptions& given_options) {
+    const auto [path, options] = without_dataset(given, given_options);
     const bool folder = is_directory(path);
     if (!folder && !anything_at(path)) missing_file(path);
     std::unique_ptr<VolumeReader> reader = folder ? open_folder(path, options) : open_file_volume(path, options);
+    check_choices(reader->info(), options);
+    reader->info_.path = given;
     check_agreement(reader->info(), options);
     correct(reader->info_, {.spacing = options.spacing, .origin = options.origin, .unit = options.unit, .value_unit = options.value_unit});
-    return reader;
+    return options.box ? box_reader(std::move(reader), *options.box) : std::move(reader);
 }
 
 }  // namespace isoatlas

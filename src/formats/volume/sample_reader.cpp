@@ -26,6 +26,7 @@ public:
         info_ = std::move(info);
         tidy_texts(info_);
         info_.slab_readable = source_->random_access();
+        info_.volumes.time_steps = step.count, info_.volumes.time_step = step.index;
         begin_ = step.index * info_.extent.size[2] * slice_bytes_;
         wanted_ = step.count * info_.extent.size[2] * slice_bytes_;
         if (source_->random_access()) check_end();
@@ -88,27 +89,6 @@ std::int64_t sample_bytes(const std::string& path, const Extent& extent, ValueTy
     return bytes;
 }
 
-TimeStep choose_time_step(const std::string& path, const OpenOptions& options, std::int64_t count) {
-    const std::int64_t index = options.time_step.value_or(0);
-    if (count > 1 && !options.time_step) {
-        throw Error(ErrorKind::usage, {.file = path,
-                                       .what = "holds " + std::to_string(count) + " volumes (4 dimensions)",
-                                       .expected = "one volume",
-                                       .next = "choose a time step from 0 to " + std::to_string(count - 1),
-                                       .reason = Reason::time_step_needed,
-                                       .value = std::to_string(count - 1)});
-    }
-    if (index < 0 || index >= count) {
-        throw Error(ErrorKind::usage, {.file = path,
-                                       .what = "has no time step " + std::to_string(index),
-                                       .expected = count == 1 ? "0: there is one volume" : "0 to " + std::to_string(count - 1),
-                                       .next = count == 1 ? "omit the time step" : "choose another time step",
-                                       .reason = count == 1 ? Reason::no_time_steps : Reason::no_such_time_step,
-                                       .value = std::to_string(count - 1)});
-    }
-    return {index, count};
-}
-
 std::unique_ptr<VolumeReader> make_sample_reader(VolumeInfo info, std::unique_ptr<ByteSource> source, const OpenOptions& options,
                                                  const TimeStep& step) {
     const std::int64_t wanted = sample_bytes(info.path, info.extent, info.type, step.count);
@@ -129,9 +109,11 @@ std::unique_ptr<VolumeReader> make_sample_reader(VolumeInfo info, std::unique_pt
 
 void tidy_texts(VolumeInfo& info) {
     info.description = header_text(info.description, /*lines=*/true);
-    for (std::string* text : {&info.value_unit, &info.geometry.unit, &info.geometry.space}) *text = header_text(*text);
+    for (std::string* text : {&info.value_unit, &info.geometry.unit, &info.geometry.space, &info.volumes.time_unit})
+        *text = header_text(*text);
     info.geometry.unit = unit_name(info.geometry.unit);
     for (std::string& note : info.notes) note = header_text(note);
+    for (std::string& channel : info.volumes.channels) channel = header_text(channel);
 }
 
 void swap_bytes(std::span<std::byte> samples, std::size_t bytes_per_sample) {

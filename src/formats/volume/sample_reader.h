@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "formats/common/byte_source.h"
+#include "formats/volume/choose.h"
 #include "isoatlas/volume.h"
 
 namespace isoatlas {
@@ -13,19 +14,10 @@ namespace isoatlas {
 /// Throws Error{input} naming `path` for sizes below 1 and for products beyond 63 bits.
 [[nodiscard]] std::int64_t sample_bytes(const std::string& path, const Extent& extent, ValueType type, std::int64_t volumes = 1);
 
-/// Selects one of several volumes in a file.
-struct TimeStep {
-    std::int64_t index = 0;
-    std::int64_t count = 1;
-};
-/// The step to read of a file with `count` volumes: options.time_step, which is optional only when there is one.
-/// Throws Error{usage} that names --time-step when it is needed or out of range.
-[[nodiscard]] TimeStep choose_time_step(const std::string& path, const OpenOptions& options, std::int64_t count);
-
 /// Reads info.extent samples of info.type (info.big_endian: swapped) that start at position step.index * bytes of one volume of the
-/// source. Sets info.slab_readable. Throws Error{input}, before anything is allocated, when the source cannot hold step.count volumes.
-/// Bytes after the last volume are Error{input}, or a note with options.skip_rest: immediately with random access, else when the last slice
-/// of the volume and the rest of the stream have been read.
+/// source. Sets info.slab_readable and the time step in info.volumes. Throws Error{input}, before anything is allocated, when the source
+/// cannot hold step.count volumes. Bytes after the last volume are Error{input}, or a note with options.skip_rest: immediately with random
+/// access, else when the last slice of the volume and the rest of the stream have been read.
 [[nodiscard]] std::unique_ptr<VolumeReader> make_sample_reader(VolumeInfo info, std::unique_ptr<ByteSource> source,
                                                                const OpenOptions& options, const TimeStep& step = {});
 
