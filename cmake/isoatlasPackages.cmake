@@ -38,6 +38,8 @@ macro(isoatlas_find_packages library)
     isoatlas_find(TIFF libtiff-dev)
     isoatlas_find(pugixml libpugixml-dev)
     isoatlas_import(hdf5 libhdf5-dev hdf5.h hdf5_serial hdf5)  # FindHDF5 needs a C compiler
+  elseif("${library}" STREQUAL remote)
+    isoatlas_import(curl libcurl4-openssl-dev curl/curl.h curl)
   elseif("${library}" STREQUAL store)
     isoatlas_import(deflate libdeflate-dev libdeflate.h deflate)
   elseif("${library}" STREQUAL measures)

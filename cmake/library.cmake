@@ -2,7 +2,7 @@
 # rooms before it, of its own library and of those it needs, nothing else (tests/layering).
 include(cmake/isoatlasPackages.cmake)
 
-set(ISOATLAS_ALL_LIBRARIES core formats store measures render methods server phantom verify)
+set(ISOATLAS_ALL_LIBRARIES core formats remote store measures render methods server phantom verify)
 set(ISOATLAS_LIBRARIES ${ISOATLAS_ALL_LIBRARIES} CACHE STRING "Libraries to build, with all that they need")
 
 # isoatlas_library(name NEEDS libraries LINKS packages INCLUDES folders HEADERS names): begins a library, isoatlas::name, unless
@@ -70,7 +70,7 @@ endforeach()
 if(core IN_LIST ISOATLAS_LIBRARIES)
   find_path(BOOST_INCLUDE_DIR boost/multiprecision/cpp_int.hpp REQUIRED)
 endif()
-if(store IN_LIST ISOATLAS_LIBRARIES)
+if(store IN_LIST ISOATLAS_LIBRARIES OR remote IN_LIST ISOATLAS_LIBRARIES)
   find_path(XXHASH_INCLUDE_DIR xxhash.h REQUIRED)
 endif()
 if(server IN_LIST ISOATLAS_LIBRARIES)

@@ -19,6 +19,7 @@ demo|zlib1g-dev|compressed NRRD, NIfTI, MetaImage and VTK files
 demo|libtiff-dev|TIFF stacks
 demo|libpugixml-dev|VTK XML files
 demo|libhdf5-dev|stores, VTKHDF files
+demo|libcurl4-openssl-dev|files on web servers
 demo|libxxhash-dev|checksums of stores
 demo|libdeflate-dev|compressed trees in stores, PNG files
 demo|libqhull-dev|convex hulls of objects, for their diameters

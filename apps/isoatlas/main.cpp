@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "data/assume_inputs.h"
+#include "data/network.h"
 #include "data/piped.h"
 #include "data/sides.h"
 #include "options/arguments.h"
@@ -42,6 +43,7 @@ int run(const std::vector<std::string>& words, Terminal& terminal) {
     if (!parsed.text.empty()) {
         terminal.out() << parsed.text;
     } else {
+        use_network(arguments);
         Piped piped(arguments, terminal);
         assume_inputs(arguments, terminal);
         arguments = with_sides(arguments);
@@ -51,6 +53,7 @@ int run(const std::vector<std::string>& words, Terminal& terminal) {
         });
     }
     terminal.finish();
+    tell_traffic(terminal);
     tell_resources(terminal, start);
     return code;
 }
@@ -73,7 +76,7 @@ int run_and_report(const std::vector<std::string>& words, Terminal& terminal) {
         return run(words, terminal);
     } catch (...) {
         terminal.forget();
-        return report(completed(failure(), words), json, terminal);
+        return report(completed(failure(), words), words, json, terminal);
     }
 }
 

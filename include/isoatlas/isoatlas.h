@@ -58,6 +58,7 @@
 #include "isoatlas/polarity.h"
 #include "isoatlas/print.h"
 #include "isoatlas/projection_methods.h"
+#include "isoatlas/remote.h"
 #include "isoatlas/render.h"
 #include "isoatlas/search_table.h"
 #include "isoatlas/segmentation.h"

@@ -32,14 +32,16 @@ def bytes_of(memory: Memory) -> int:
 
 def reading_options(*, spacing: Spacing = None, origin: Any = None, unit: Optional[str] = None, value_unit: Optional[str] = None,
                     dims: Any = None, type: Any = None, endian: Optional[str] = None, skip: Optional[int] = None,
-                    skip_rest: bool = False, follow_links: bool = False, time_step: Optional[int] = None) -> dict[str, Any]:
+                    skip_rest: bool = False, follow_links: bool = False, time_step: Optional[int] = None,
+                    channel: Union[None, str, int] = None, series: Union[None, str, int] = None, level: Optional[int] = None) -> dict[str, Any]:
     """What the reader of a volume file takes."""
     if endian not in (None, "little", "big"):
         raise raised(InputError, f"endian cannot be {endian!r}", expected="'little', 'big'", next="use one of them")
     return {"spacing": _arrays.spacing_of(spacing), "origin": None if origin is None else _arrays.numbers_of("origin", origin, (3,)),
             "unit": unit, "value_unit": value_unit, "dims": None if dims is None else [int(n) for n in dims][::-1],
             "type": None if type is None else np.dtype(type).name, "big_endian": None if endian is None else endian == "big",
-            "skip_bytes": skip, "skip_rest": skip_rest, "follow_links": follow_links, "time_step": time_step}
+            "skip_bytes": skip, "skip_rest": skip_rest, "follow_links": follow_links, "time_step": time_step,
+            "channel": None if channel is None else str(channel), "series": None if series is None else str(series), "level": level}
 
 
 def _box_of(box: Any, shape: Sequence[int]) -> Optional[list[list[int]]]:
@@ -56,7 +58,8 @@ def _box_of(box: Any, shape: Sequence[int]) -> Optional[list[list[int]]]:
 
 def open(source: Any, *, spacing: Spacing = None, origin: Any = None, direction: Any = None, unit: Optional[str] = None,
          value_unit: Optional[str] = None, dims: Any = None, type: Any = None, endian: Optional[str] = None, skip: Optional[int] = None,
-         skip_rest: bool = False, follow_links: bool = False, time_step: Optional[int] = None, missing: Union[None, str, float] = None,
+         skip_rest: bool = False, follow_links: bool = False, time_step: Optional[int] = None, channel: Union[None, str, int] = None,
+         series: Union[None, str, int] = None, level: Optional[int] = None, missing: Union[None, str, float] = None,
          no_data: Optional[float] = None, box: Any = None, gaussian: float = 0.0, polarity: Optional[str] = None,
          interpolant: str = "trilinear", tunnel_height: float = 0.0, memory: Memory = None, store: Optional[Path] = None,
          progress: Progress = None, threads: int = 0) -> Atlas:
@@ -76,8 +79,11 @@ def open(source: Any, *, spacing: Spacing = None, origin: Any = None, direction:
         Columns: unit vectors along the axes x, y, z of the array. Arrays only.
     unit, value_unit : str, optional
         Of lengths ("mm", "um") and of samples.
-    dims, type, endian, skip, skip_rest, follow_links, time_step
+    dims, type, endian, skip, skip_rest, follow_links
         Of the reader of files, as the options of the command line; dims are (z, y, x).
+    time_step, channel, series, level : optional
+        Which volume of a file that holds several: a number, of channels and DICOM series also a name. An array of many in one file is
+        named behind it, ``"file.h5:/entry/data"``. Without a choice the error lists what there is.
     missing : {"below", "above"} or float, optional
         What becomes of NaN and infinite samples, and of those equal to no_data; without it they are an error.
     no_data : float, optional
@@ -119,7 +125,8 @@ def open(source: Any, *, spacing: Spacing = None, origin: Any = None, direction:
     is_file = _arrays.is_path(source)
     if is_file:
         reading = reading_options(spacing=spacing, origin=origin, unit=unit, value_unit=value_unit, dims=dims, type=type, endian=endian,
-                                  skip=skip, skip_rest=skip_rest, follow_links=follow_links, time_step=time_step)
+                                  skip=skip, skip_rest=skip_rest, follow_links=follow_links, time_step=time_step, channel=channel, series=series,
+                                  level=level)
         if direction is not None:
             raise raised(InputError, "direction is for arrays; files have theirs", next="leave it out")
         path = os.fspath(source)
@@ -128,8 +135,8 @@ def open(source: Any, *, spacing: Spacing = None, origin: Any = None, direction:
             _check_store_options(found, interpolant, tunnel_height, gaussian, box, missing)
             return Atlas(found, (path, made))
     else:
-        if any(value is not None for value in (dims, type, endian, skip, time_step)):
-            raise raised(InputError, "dims, type, endian, skip and time_step are for files", next="leave them out")
+        if any(value is not None for value in (dims, type, endian, skip, time_step, channel, series, level)):
+            raise raised(InputError, "dims, type, endian, skip, time_step, channel, series and level are for files", next="leave them out")
         source, hints = _arrays.from_xarray(source)
         spacing, origin = hints.get("spacing", spacing) if spacing is None else spacing, hints.get("origin") if origin is None else origin
         value_unit = hints.get("value_unit") if value_unit is None else value_unit
@@ -139,7 +146,8 @@ def open(source: Any, *, spacing: Spacing = None, origin: Any = None, direction:
         folder = None if store is not None else tempfile.TemporaryDirectory(prefix="isoatlas-")
         where = os.path.join(folder.name, "volume.atlas") if folder is not None else os.fspath(store or "")
         build(source, where, spacing=spacing, origin=origin, direction=direction, unit=unit, value_unit=value_unit, dims=dims, type=type,
-              endian=endian, skip=skip, skip_rest=skip_rest, follow_links=follow_links, time_step=time_step, missing=missing,
+              endian=endian, skip=skip, skip_rest=skip_rest, follow_links=follow_links, time_step=time_step, channel=channel,
+              series=series, level=level, missing=missing,
               no_data=no_data, gaussian=gaussian, polarity=polarity or "high", interpolant=interpolant, tunnel_height=tunnel_height,
               memory=memory, progress=progress, threads=threads)
         return Atlas(_core.Source.of_store(where, None, {}), (source, made) if folder else (where, {}), folder)
@@ -171,7 +179,8 @@ def _check_store_options(source: _core.Source, interpolant: str, tunnel_height: 
 
 def build(source: Any, path: Path, *, spacing: Spacing = None, origin: Any = None, direction: Any = None, unit: Optional[str] = None,
           value_unit: Optional[str] = None, dims: Any = None, type: Any = None, endian: Optional[str] = None, skip: Optional[int] = None,
-          skip_rest: bool = False, follow_links: bool = False, time_step: Optional[int] = None, missing: Union[None, str, float] = None,
+          skip_rest: bool = False, follow_links: bool = False, time_step: Optional[int] = None, channel: Union[None, str, int] = None,
+         series: Union[None, str, int] = None, level: Optional[int] = None, missing: Union[None, str, float] = None,
           no_data: Optional[float] = None, gaussian: float = 0.0, polarity: str = "high", interpolant: str = "trilinear",
           tunnel_height: float = 0.0, memory: Memory = None, restart: bool = False, progress: Progress = None,
           threads: int = 0) -> dict[str, Any]:
@@ -204,7 +213,8 @@ def build(source: Any, path: Path, *, spacing: Spacing = None, origin: Any = Non
     own = call(progress, threads)
     if _arrays.is_path(source):
         reading = reading_options(spacing=spacing, origin=origin, unit=unit, value_unit=value_unit, dims=dims, type=type, endian=endian,
-                                  skip=skip, skip_rest=skip_rest, follow_links=follow_links, time_step=time_step)
+                                  skip=skip, skip_rest=skip_rest, follow_links=follow_links, time_step=time_step, channel=channel, series=series,
+                                  level=level)
         return _core.build_from_file(os.fspath(path), os.fspath(source), reading, options, missing, no_data, own)
     if _arrays.is_lazy(source) and len(source.shape) == 3:
         dtype = np.dtype(source.dtype).newbyteorder("=")

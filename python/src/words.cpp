@@ -119,6 +119,9 @@ OpenOptions open_options_of(const py::dict& options) {
     take(options, "skip_rest", open.skip_rest);
     take(options, "follow_links", open.follow_links);
     take(options, "time_step", open.time_step);
+    take(options, "channel", open.channel);
+    take(options, "series", open.series);
+    take(options, "level", open.level);
     if (open.unit) open.unit = unit_name(*open.unit);
     if (open.spacing) check_finite("spacing", *open.spacing, false);
     if (open.origin) check_finite("origin", *open.origin, false);

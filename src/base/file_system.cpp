@@ -1,5 +1,6 @@
 #include "base/file_system.h"
 
+#include <atomic>
 #include <cerrno>
 #include <filesystem>
 
@@ -9,6 +10,9 @@ File::~File() = default;
 std::ptrdiff_t File::read_at(std::int64_t, std::span<std::byte>) { return -EBADF; }
 std::ptrdiff_t File::read_nowait(std::int64_t offset, std::span<std::byte> out) { return read_at(offset, out); }
 void File::prefetch(std::int64_t, std::int64_t) {}
+void File::prefetch_ranges(std::span<const FileRange> ranges) {
+    for (const FileRange& range : ranges) prefetch(range.begin, range.bytes());
+}
 void File::drop_pages() {}
 std::ptrdiff_t File::write_at(std::int64_t, std::span<const std::byte>) { return -EBADF; }
 int File::resize(std::int64_t) { return -EBADF; }
@@ -35,12 +39,9 @@ int FileSystem::remove_folder(const std::string&) { return -EROFS; }
 std::vector<std::string> FileSystem::entries(const std::string&, std::size_t) { return {}; }
 int FileSystem::sync_folder(const std::string&) { return -EROFS; }
 
-FileSystem& file_system() {
-    FileSystem* const files = current_environment().files;
-    return files != nullptr ? *files : system_files();
-}
-
 namespace {
+
+std::atomic<FileSystem*> default_files{nullptr};
 
 Environment with_files(FileSystem& files) {
     Environment environment = current_environment();
@@ -49,6 +50,14 @@ Environment with_files(FileSystem& files) {
 }
 
 }  // namespace
+
+FileSystem& file_system() {
+    FileSystem* files = current_environment().files;
+    if (files == nullptr) files = default_files.load(std::memory_order_acquire);
+    return files != nullptr ? *files : system_files();
+}
+
+void set_default_files(FileSystem* files) { default_files.store(files, std::memory_order_release); }
 
 ReplacedFileSystem::ReplacedFileSystem(FileSystem& files) : scope_(with_files(files)) {}
 

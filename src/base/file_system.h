@@ -10,11 +10,19 @@
 #include <memory>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "isoatlas/environment.h"
 
 namespace isoatlas {
+
+/// Bytes of a file.
+struct FileRange {
+    std::int64_t begin = 0, end = 0;
+    [[nodiscard]] std::int64_t bytes() const { return end - begin; }
+    bool operator==(const FileRange&) const = default;
+};
 
 /// An open file, closed by its destructor. Offsets are absolute; nothing is buffered. Operations that a kind of file does not support fail.
 class File {
@@ -31,6 +39,8 @@ public:
     [[nodiscard]] virtual std::ptrdiff_t read_nowait(std::int64_t offset, std::span<std::byte> out);
     /// Hint that bytes, at least one, will be read soon (WILLNEED).
     virtual void prefetch(std::int64_t offset, std::int64_t bytes);
+    /// The same for several ranges, ascending and not empty. Files of other machines fetch them now, in few requests.
+    virtual void prefetch_ranges(std::span<const FileRange> ranges);
     /// Hint that no page of the file, which was synced, needs to stay in memory (DONTNEED).
     virtual void drop_pages();
     /// Writes at most bytes.size() bytes at offset; the number written, or -errno. A hole before offset reads as zeros.
@@ -112,6 +122,11 @@ public:
 [[nodiscard]] FileSystem& file_system();
 /// That of the operating system.
 [[nodiscard]] FileSystem& system_files();
+/// What environments without files of their own have from now on, for the whole process; nullptr: the operating system's. It must live as
+/// long as it is in use.
+void set_default_files(FileSystem* files);
+/// A file of another machine: http:// or https://.
+[[nodiscard]] inline bool is_address(std::string_view path) { return path.starts_with("http://") || path.starts_with("https://"); }
 
 /// For tests: while it lives, the current environment has these files.
 class ReplacedFileSystem {

@@ -34,6 +34,18 @@ constexpr std::int64_t kExpectedGap = 16 << 10;  ///< max gap between two reads 
                                    .next = "the store is damaged: build it again from the volume"});
 }
 
+/// The bytes of all bricks. What the index of bricks is read from is prefetched together.
+const StoredArray& announced(const Container& store, const char* samples) {
+    std::vector<const StoredArray*> index;
+    for (const auto& [name, type] :
+         {std::pair("volume/offset", "uint64"), std::pair("volume/checksum", "uint64"), std::pair("volume/bytes", "uint16"),
+          std::pair("volume/low", samples), std::pair("volume/high", samples), std::pair("volume/lowest", "uint16"),
+          std::pair("volume/highest", "uint16")})
+        index.push_back(&store.contents().array(name, type));
+    store.prefetch(index);
+    return store.contents().array("volume/data", "uint8");
+}
+
 constexpr const char* kWrongExtremes = "its extremes are not at the stored positions";
 
 }  // namespace
@@ -41,7 +53,7 @@ constexpr const char* kWrongExtremes = "its extremes are not at the stored posit
 template <class T>
 BrickReader<T>::BrickReader(const Container& store)
     : store_(store),
-      data_(store.contents().array("volume/data", "uint8")),
+      data_(announced(store, name_of(value_type_of<T>))),
       is_negated_(polarity_of(store.contents().volume) == Polarity::low),
       grid_(store.contents().volume.extent),
       offset_(store.all<std::uint64_t>("volume/offset", "uint64")),
@@ -153,21 +165,23 @@ IoCounters BrickReader<T>::max_of_part(std::vector<BrickId> bricks) const {
 template <class T>
 void BrickReader<T>::prefetch(std::span<const Extent> extents, std::size_t first, Prefetched& prefetched) const {
     const std::size_t end = std::min(first + kExpectedReads, extents.size());
-    const std::int64_t end_byte = extents[first].begin + kExpectedBytes;
-    std::int64_t begin = 0, reached = 0;  // nothing prefetched yet
+    std::int64_t left = kExpectedBytes;
+    std::vector<FileRange> ranges;
+    FileRange range;  // nothing prefetched yet
     const auto ask = [&] {
-        if (reached > begin) store_.prefetch(data_, begin, reached - begin);
-        begin = reached = 0;
+        if (range.bytes() > 0) ranges.push_back(range);
+        range = {};
     };
-    for (std::size_t i = first; i < end && extents[i].begin < end_byte; ++i) {
+    for (std::size_t i = first; i < end && left > 0; left -= extents[i].end - extents[i].begin, ++i) {
         if (extents[i].end == extents[i].begin) continue;  // bricks of one value have no bytes
         const bool is_asked = prefetched[i].exchange(true, std::memory_order_relaxed);
-        if (is_asked || extents[i].begin - reached > kExpectedGap) ask();
+        if (is_asked || extents[i].begin - range.end > kExpectedGap) ask();
         if (is_asked) continue;
-        if (reached == begin) begin = extents[i].begin;
-        reached = extents[i].end;
+        if (range.bytes() == 0) range.begin = extents[i].begin;
+        range.end = extents[i].end;
     }
     ask();
+    store_.prefetch(data_, std::move(ranges));
 }
 
 template <class T>

@@ -20,6 +20,7 @@ struct RawHeader {
 static_assert(sizeof(RawHeader) == 56);
 constexpr std::size_t kCheckedHeader = 48;
 constexpr std::uint64_t kReadAtOnce = std::uint64_t{1} << 18;
+constexpr std::int64_t kLastBytes = 64 << 10;  ///< mostly with the trailer, the contents, and what lies before them
 
 }  // namespace
 
@@ -88,6 +89,35 @@ Container::Container(const std::string& path, std::optional<Polarity> polarity, 
     contents_ = contents_of(contents_, polarity.value_or(own));
 }
 
+void Container::prefetch(const StoredArray& array, std::vector<FileRange> ranges) const {
+    for (FileRange& range : ranges) range.begin += array.offset, range.end += array.offset;
+    announce(std::move(ranges));
+}
+
+void Container::prefetch(std::span<const StoredArray* const> arrays) const {
+    std::vector<FileRange> ranges;
+    for (const StoredArray* array : arrays) {
+        ranges.push_back({array->checksums, array->checksums + array->index_bytes()});
+        if (array->chunk == 0) ranges.push_back({array->offset, array->offset + array->bytes()});
+    }
+    announce(std::move(ranges));
+}
+
+/// Ranges of any order, which may overlap or be empty.
+void Container::announce(std::vector<FileRange> ranges) const {
+    std::ranges::sort(ranges, {}, &FileRange::begin);
+    std::vector<FileRange> apart;
+    for (FileRange range : ranges) {
+        range = {std::max<std::int64_t>(range.begin, 0), std::min(range.end, file_size_)};
+        if (range.bytes() <= 0) continue;
+        if (!apart.empty() && range.begin <= apart.back().end)
+            apart.back().end = std::max(apart.back().end, range.end);
+        else
+            apart.push_back(range);
+    }
+    if (!apart.empty()) file_->prefetch_ranges(apart);
+}
+
 void Container::damaged(const std::string& where, const std::string& what) const {
     throw Error(ErrorKind::input,
                 {.file = path_, .where = where, .what = what, .next = "the store is damaged: build it again from the volume"});
@@ -125,6 +155,7 @@ void Container::read_header() {
 }
 
 bool Container::check_frame() {
+    announce({{file_size_ - kLastBytes, file_size_}});
     std::vector<std::byte> bytes(static_cast<std::size_t>(kTrailerEnd));
     read_fully(*file_, path_, file_size_ - kTrailerEnd, bytes);
     const std::optional<std::int64_t> size = trailer_bytes(bytes, file_size_);
@@ -133,6 +164,10 @@ bool Container::check_frame() {
     read_fully(*file_, path_, file_size_ - *size, bytes);
     std::optional<StoreFrame> frame = frame_of_trailer(bytes, file_size_);
     if (!frame) damaged("trailer", "its checksum is wrong");
+    std::vector<FileRange> ranges;
+    for (const ByteRange& range : frame->ranges)
+        ranges.push_back({static_cast<std::int64_t>(range.offset), static_cast<std::int64_t>(range.offset + range.bytes)});
+    announce(std::move(ranges));
     Checksum sum;
     for (const ByteRange& range : frame->ranges) {
         for (std::uint64_t done = 0; done < range.bytes; done += bytes.size()) {
@@ -186,6 +221,8 @@ void Container::read(const StoredArray& array, std::int64_t first, std::span<std
     if (size == 0) return;
     if (array.chunk > 0) return read_chunks(array, first, out);
     const std::int64_t begin = first / array.block, end = (first + size + array.block - 1) / array.block;
+    announce({{array.checksums + 8 * begin, array.checksums + 8 * end},
+              {array.offset + begin * array.block, array.offset + std::min(end * array.block, array.bytes())}});
     const std::vector<std::uint64_t> sums = checksums_of(array, begin, end);
     std::vector<std::byte> edge(static_cast<std::size_t>(array.block));
     for (std::int64_t block = begin; block < end; ++block) {
@@ -209,6 +246,10 @@ std::vector<StoredChunk> Container::chunks_of(const StoredArray& array, std::int
         if (chunks[i].offset > size || chunks[i].bytes > size - chunks[i].offset)
             damaged(array.name + ", chunk " + std::to_string(first + static_cast<std::int64_t>(i)), "it lies outside the file");
     }
+    std::vector<FileRange> ranges;
+    for (const StoredChunk& chunk : chunks)
+        ranges.push_back({static_cast<std::int64_t>(chunk.offset), static_cast<std::int64_t>(chunk.offset + chunk.bytes)});
+    announce(std::move(ranges));
     return chunks;
 }
 

@@ -9,6 +9,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -62,8 +63,10 @@ public:
     [[nodiscard]] bool read_if_present(const StoredArray& array, std::int64_t first, std::span<std::byte> out) const;
     /// Pages of the file need not stay in memory.
     void drop_pages() const { file_->drop_pages(); }
-    /// Prefetches bytes of an array.
-    void prefetch(const StoredArray& array, std::int64_t first, std::int64_t bytes) const { file_->prefetch(array.offset + first, bytes); }
+    /// Prefetches ranges of bytes of an array, ascending.
+    void prefetch(const StoredArray& array, std::vector<FileRange> ranges) const;
+    /// Prefetches whole arrays with their checksums, together.
+    void prefetch(std::span<const StoredArray* const> arrays) const;
 
     /// The JSON text of the contents in the file.
     [[nodiscard]] std::string contents_text() const;
@@ -97,6 +100,7 @@ private:
     [[nodiscard]] std::vector<std::byte> read_chunk(const StoredArray& array, std::int64_t number, const StoredChunk& chunk) const;
     void read_chunks(const StoredArray& array, std::int64_t first, std::span<std::byte> out) const;
     [[noreturn]] void damaged(const std::string& where, const std::string& what) const;
+    void announce(std::vector<FileRange> ranges) const;
 
     std::string path_;
     std::unique_ptr<File> file_;

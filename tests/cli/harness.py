@@ -96,7 +96,8 @@ class CliTest(unittest.TestCase):
         self.assertEqual(document["schema"], "isoatlas/error/1")
         error = document["error"]
         self.assertEqual(error["exit_code"], code)
-        self.assertEqual(set(error), {"kind", "exit_code", "message", "file", "where", "what", "expected", "next", "reason", "value"})
+        self.assertEqual(set(error), {"kind", "exit_code", "message", "file", "where", "what", "expected", "next", "reason", "value",
+                                      "choices"})
         self.assertEqual("isoatlas: " + error["message"], messages[0])
         self.assertIn(next_says, error["next"])
         self.assertNotEqual(error["what"], "")

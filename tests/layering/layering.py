@@ -15,6 +15,7 @@ from pathlib import Path
 LIBRARIES = {
     "core": ([], ["base", "field", "critical", "tree", "zones", "analysis", "features", "persistence", "levelset", "mesh"]),
     "formats": (["core"], ["formats/common", "formats/volume", "formats/mesh", "formats/tree"]),
+    "remote": (["formats"], ["remote"]),
     "store": (["formats"], ["codec", "store", "bricks", "census", "atlas"]),
     "measures": (["store"], ["measures"]),
     "render": (["core"], ["image", "render"]),
@@ -37,6 +38,7 @@ PUBLIC = {
     "mesh": "labels print surface",
     "formats/common": "object_names output segmentation shell_word",
     "formats/mesh": "evolution_file",
+    "remote": "remote",
     "census": "search_table",
     "atlas": "atlas build dump locate navigator",
     "measures": "measures thickness",
@@ -61,7 +63,7 @@ DOORS = {
     r"tbb/.*|oneapi/.*": r"src/base/parallel\.cpp",
     r"future|condition_variable|stop_token": r"(apps|tests|bench)/.*|src/base/memory_budgets\.h|src/base/workers\.h|src/server/(job_queue|version_counter|shared_once)\.h",
     r"thread": r"(apps|tests|bench)/.*|src/base/parallel.*\.cpp|src/base/cancel\.h|src/base/memory_(budgets\.h|limit\.cpp)|src/base/workers\.h",  # asks which thread it is on; watches memory, computes nothing
-    r"mutex": r"(apps|tests|bench|src/base)/.*|src/analysis/analysis_data\.h|src/zones/open_voxels\.h|src/methods/zones/filing_runs\.h|src/formats/common/hdf5_layout\.cpp|src/bricks/(stored_samples|brick_cache|brick_histogram)\.(h|cpp)|src/atlas/atlas\.cpp|src/server/(job_queue|version_counter|store_state|event_stream|shared_once|access_control|naming|shared_scene)\.h",  # std::once_flag: the index is made when first asked for
+    r"mutex": r"(apps|tests|bench|src/base)/.*|src/analysis/analysis_data\.h|src/zones/open_voxels\.h|src/methods/zones/filing_runs\.h|src/formats/common/hdf5_layout\.cpp|src/bricks/(stored_samples|brick_cache|brick_histogram)\.(h|cpp)|src/atlas/atlas\.cpp|src/remote/.*|src/server/(job_queue|version_counter|store_state|event_stream|shared_once|access_control|naming|shared_scene)\.h",  # std::once_flag: the index is made when first asked for
     r"mpi\.h": r"(?!)",
     r"tiff.*\.h": r"src/formats/volume/.*tiff.*|tests/.*",
     r"pugixml\.hpp": r"src/formats/.*|tests/.*",
@@ -79,7 +81,8 @@ DOORS = {
     r"fcntl\.h|sys/(stat|file)\.h|fstream": r"src/base/.*|(apps|tests|bench)/.*",
     r"libqhull_r/.*": r"src/measures/convex_hull\.cpp",
     r"hdf5\.h": r"src/formats/common/hdf5_layout\.cpp",
-    r"xxhash\.h": r"src/codec/checksum\.h",
+    r"xxhash\.h": r"src/codec/checksum\.h|src/remote/disk_cache\.cpp",
+    r"curl/.*": r"src/remote/(address|transfer|http_client)\.(h|cpp)",
     r"gtest/.*|gmock/.*|rapidcheck.*": r"tests/.*",
     r"benchmark/.*": r"bench/.*",
 }

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "data/input.h"
 #include "data/session.h"
 #include "data/source.h"
 #include "options/words.h"
@@ -142,7 +143,7 @@ void assume_inputs(Arguments& arguments, Terminal& terminal) {
     const bool filters = inputs.seeks_gaussian && filters_stores(arguments.verb);
     if (!(is_analysis(arguments.verb) || filters) || is_atlas(arguments.file)) return;
     try {
-        const std::unique_ptr<VolumeReader> reader = open_volume(arguments.file, arguments.open);
+        const std::unique_ptr<VolumeReader> reader = open_input(arguments).reader;
         Arguments looked = arguments;  // all or nothing
         Session session(arguments, terminal);
         look(looked, *reader, session.context());

@@ -55,7 +55,7 @@ Colour colour_of(const ChosenObject& object, std::int64_t place) {
 }
 
 std::string names_file(const Arguments& arguments, Polarity polarity) {
-    return object_names_path(is_atlas(arguments.file) ? arguments.file : stem_of(arguments.file) + ".atlas", polarity);
+    return object_names_path(is_atlas(arguments.file) ? arguments.file : stem_of_volume(arguments) + ".atlas", polarity);
 }
 
 std::vector<ObjectName> names_in(const std::string& file, const Extent& extent, Terminal& terminal) {

@@ -10,6 +10,7 @@
 
 #include <fmt/format.h>
 
+#include "data/input.h"
 #include "options/suggest.h"
 #include "text/interrupt.h"
 #include "text/terminal.h"
@@ -95,18 +96,21 @@ Geometry voxel_geometry() {
     return geometry;
 }
 
-Volume shaped(Volume volume, const Arguments& arguments, const Context& context) {
-    if (polarity_of(volume.info) == Polarity::low && arguments.gaussian)  // rounding is that of the file's samples
-        return negated(shaped(negated(std::move(volume)), arguments, context));
-    if (arguments.box && arguments.gaussian) return gaussian_filter(volume, *arguments.box, *arguments.gaussian, context);
-    if (arguments.gaussian) return gaussian_filter(volume, *arguments.gaussian, context);
-    return arguments.box ? crop(volume, *arguments.box) : std::move(volume);
+Volume shaped(Volume volume, const std::optional<double>& gaussian, const std::optional<SampleBox>& box, const Context& context) {
+    if (polarity_of(volume.info) == Polarity::low && gaussian)  // rounding is that of the file's samples
+        return negated(shaped(negated(std::move(volume)), gaussian, box, context));
+    if (box && gaussian) return gaussian_filter(volume, *box, *gaussian, context);
+    if (gaussian) return gaussian_filter(volume, *gaussian, context);
+    return box ? crop(volume, *box) : std::move(volume);
 }
 
 Volume Session::load() {
     Volume volume;
+    std::optional<SampleBox> box;
     {
-        const std::unique_ptr<VolumeReader> reader = open_volume(arguments_.file, arguments_.open);
+        Input input = open_input(arguments_);
+        const std::unique_ptr<VolumeReader> reader = std::move(input.reader);
+        box = input.box;
         const double min = cost_of_analysis(reader->info(), arguments_.threads).memory_smooth;
         if (min > machine_memory()) {
             terminal_.warn(
@@ -127,7 +131,7 @@ Volume Session::load() {
         if (!arguments_.quiet) terminal_.say("note: " + note);
     }
     if (arguments_.voxel_units) volume.info.geometry = voxel_geometry();
-    volume = shaped(std::move(volume), arguments_, context());
+    volume = shaped(std::move(volume), arguments_.gaussian, box, context());
     if (arguments_.is_low()) volume = negated(std::move(volume));
     if (!arguments_.quiet) terminal_.say(describe(volume.info, range_of(volume)));
     return volume;
@@ -175,6 +179,16 @@ void check_output(const Arguments& arguments, const std::string& output, const s
     }
 }
 
+namespace {
+
+std::string box_text(const SampleBox& box) {
+    std::string text;
+    for (std::size_t axis = 0; axis < 3; ++axis) text += fmt::format("{}{}:{}", axis > 0 ? "," : "", box.begin[axis], box.end[axis]);
+    return text;
+}
+
+}  // namespace
+
 std::string reading_options(const Arguments& arguments) {
     std::string text;
     if (arguments.open.dims) {
@@ -189,6 +203,10 @@ std::string reading_options(const Arguments& arguments) {
     if (arguments.open.spacing) text += vector("--spacing", *arguments.open.spacing);
     if (arguments.open.origin) text += vector("--origin", *arguments.open.origin);
     if (arguments.open.time_step) text += fmt::format(" --time-step {}", *arguments.open.time_step);
+    if (arguments.open.channel) text += " --channel " + shell_word(*arguments.open.channel);
+    if (arguments.open.series) text += " --series " + shell_word(*arguments.open.series);
+    if (arguments.open.level) text += fmt::format(" --level {}", *arguments.open.level);
+    if (arguments.box) text += " --box " + box_text(*arguments.box);
     if (arguments.open.skip_rest) text += " --skip-rest";
     if (arguments.open.follow_links) text += " --follow-links";
     if (arguments.open.unit) text += " --unit " + (arguments.open.unit->empty() ? "none" : shell_word(ascii_unit(*arguments.open.unit)));

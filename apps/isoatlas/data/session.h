@@ -1,6 +1,7 @@
 // Session: first steps of most verbs. Checks the output path, loads and describes the volume, converts the isovalue.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -47,8 +48,9 @@ struct Cost {
 /// Bytes that the machine has; infinity: unknown.
 [[nodiscard]] double machine_memory();
 
-/// Applies --gaussian and --box.
-[[nodiscard]] Volume shaped(Volume volume, const Arguments& arguments, const Context& context);
+/// The samples filtered with --gaussian, then those of a box alone.
+[[nodiscard]] Volume shaped(Volume volume, const std::optional<double>& gaussian, const std::optional<SampleBox>& box,
+                            const Context& context);
 
 /// What the user says about geometry and units, for a store.
 [[nodiscard]] Corrections corrections_of(const Arguments& arguments);

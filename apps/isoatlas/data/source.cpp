@@ -22,10 +22,12 @@ void check_store_options(const Arguments& arguments, const Atlas& atlas) {
         refuse("--interpolant", std::string("--interpolant ") + name_of(atlas.interpolant()));
     if (arguments.tunnel_height > 0) refuse("--tunnel-height", fmt::format("a tunnel height of {}", atlas.tunnel_height()));
     const OpenOptions& open = arguments.open;
-    if (open.dims || open.type || open.big_endian || open.skip_bytes || open.time_step || open.skip_rest || open.follow_links)
+    if (open.dims || open.type || open.big_endian || open.skip_bytes || open.time_step || open.channel || open.series || open.level ||
+        open.skip_rest || open.follow_links)
         refuse("an option of the reader", "the header of the volume file");
     if (arguments.missing.action != MissingPolicy::Action::error || arguments.missing.no_data) refuse("--missing", "complete samples");
     if (filters_stores(arguments.verb)) return;
+    if (arguments.box) refuse("--box", "all samples of the volume");
     const double gaussian = atlas.info().gaussian;
     if ((arguments.gaussian && *arguments.gaussian != gaussian) || (arguments.inputs.seeks_gaussian && gaussian == 0))
         refuse("--gaussian", gaussian > 0 ? fmt::format("--gaussian {}", gaussian) : "unfiltered samples");
@@ -190,7 +192,7 @@ const Volume& Source::volume() {
         whole.cells_loaded = whole.cells_visited = info_.extent.voxels();
         cost_ += whole;
         volume_->info = info_;
-        if (filters_samples()) volume_ = shaped(std::move(*volume_), arguments_, context());
+        if (filters_samples()) volume_ = shaped(std::move(*volume_), arguments_.gaussian, arguments_.box, context());
         info_ = volume_->info;
     }
     return *volume_;

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <thread>
 
+#include "data/input.h"
 #include "data/session.h"
 #include "data/source.h"
 #include "data/store_beside.h"
@@ -51,7 +52,7 @@ void build(const Arguments& arguments, Terminal& terminal, const std::string& st
     build.output = store;
     BuildClock clock;
     Clock::time_point told;
-    build_store(build, terminal, *open_volume(arguments.file, arguments.open), [&](const Progress& progress) {
+    build_store(build, terminal, *open_input(arguments).reader, [&](const Progress& progress) {
         const BuildState state = clock.at(progress);
         if (Clock::now() - told < kTellEvery) return;
         told = Clock::now();
@@ -86,7 +87,7 @@ bool is_ready(const Arguments& arguments, Terminal& terminal, const std::string&
         no_store(arguments, store, "it has no store" + why + ", and --read-only does not write one");
     }
     if (!arguments.restart && is_usable(store, arguments, terminal)) return true;
-    check_is_volume(arguments, open_volume(arguments.file, arguments.open)->info());
+    check_is_volume(arguments, open_input(arguments).reader->info());
     return false;
 }
 

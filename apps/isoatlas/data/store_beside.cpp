@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <memory>
 
+#include "data/input.h"
 #include "data/session.h"
 #include "data/source.h"
 #include "options/suggest.h"
@@ -28,7 +29,7 @@ bool is_newer(const std::string& store, const VolumeInfo& volume) {
 
 /// Differences between a store and arguments.file.
 std::string differences(const Atlas& atlas, const std::string& store, const Arguments& arguments) {
-    const std::unique_ptr<VolumeReader> volume = open_volume(arguments.file, arguments.open);
+    const std::unique_ptr<VolumeReader> volume = open_input(arguments).reader;
     const VolumeInfo& info = volume->info();
     Context context;
     context.threads = arguments.threads;
@@ -44,6 +45,17 @@ std::string differences(const Atlas& atlas, const std::string& store, const Argu
     const std::string elsewhere =
         arguments.verb == "atlas" ? "-o writes page and store elsewhere" : build + " builds another store to view";
     throw Error(ErrorKind::usage, {.file = store, .what = what, .next = "--restart replaces it; " + elsewhere});
+}
+
+/// As part of the name of a file: letters, digits, "-" and "."; anything else becomes "_".
+std::string file_word(const std::string& text) {
+    constexpr std::size_t kMost = 80;
+    std::string word = text.substr(0, kMost);
+    for (char& c : word) {
+        const bool is_plain = (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '-' || c == '.';
+        if (!is_plain) c = '_';
+    }
+    return word;
 }
 
 }  // namespace
@@ -100,9 +112,23 @@ std::string stem_of(const std::string& file) {
     return name;
 }
 
+std::string stem_of_volume(const Arguments& arguments) {
+    const OpenOptions& open = arguments.open;
+    const std::size_t colon = arguments.file.find(":/");
+    std::error_code ignored;
+    const bool has_dataset = colon != std::string::npos && colon > 0 && !fs::exists(arguments.file, ignored);
+    std::string stem = stem_of(has_dataset ? arguments.file.substr(0, colon) : arguments.file);
+    if (has_dataset) stem += file_word(arguments.file.substr(colon + 1));
+    if (open.series) stem += "_" + file_word(*open.series);
+    if (open.channel) stem += "_" + file_word(*open.channel);
+    if (open.time_step) stem += "_t" + std::to_string(*open.time_step);
+    if (open.level) stem += "_level" + std::to_string(*open.level);
+    return stem;
+}
+
 std::string stem_of(const Arguments& arguments) {
-    const bool is_other_side = arguments.is_low() && !is_atlas(arguments.file);
-    return stem_of(arguments.file) + (is_other_side ? ".low" : "");
+    if (is_atlas(arguments.file)) return stem_of(arguments.file);
+    return stem_of_volume(arguments) + (arguments.is_low() ? ".low" : "");
 }
 
 std::string store_beside(const std::string& page) {
@@ -119,7 +145,7 @@ std::string store_for(const Arguments& arguments, Terminal& terminal, const std:
     if (!arguments.restart && is_usable(store, arguments, terminal)) return store;
     Arguments build = arguments;
     build.output = store;
-    build_store(build, terminal, *open_volume(arguments.file, arguments.open), {}, high_values);
+    build_store(build, terminal, *open_input(arguments).reader, {}, high_values);
     return store;
 }
 

@@ -19,6 +19,8 @@ class Terminal;
 
 /// Of the file; for objects of low values scan.low: page and store of their own.
 [[nodiscard]] std::string stem_of(const Arguments& arguments);
+/// The same of the volume, of either polarity: with the dataset, channel, time step, ... that were chosen.
+[[nodiscard]] std::string stem_of_volume(const Arguments& arguments);
 
 /// scan.atlas.html and scan.html stand beside scan.atlas.
 [[nodiscard]] std::string store_beside(const std::string& page);

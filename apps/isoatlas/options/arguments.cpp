@@ -94,6 +94,15 @@ void check_both(const Arguments& arguments) {
           "--top N or --object REF");
 }
 
+/// A store is filtered slab by slab while it is built, and would not know the samples around a box.
+void check_box(const Arguments& arguments) {
+    const bool builds = arguments.verb == "atlas" || arguments.verb == "view" || arguments.verb == "build";
+    const bool filters = arguments.gaussian || arguments.inputs.seeks_gaussian;
+    if (!builds || !arguments.box || !filters) return;
+    usage("--box with --gaussian cannot be built into a store",
+          "isoatlas convert VOLUME --box ... --gaussian ... -o PART.nrrd writes the filtered box; then give PART.nrrd");
+}
+
 /// Of `animate`: the first option that is neither about isovalues nor one of all verbs.
 std::string first_picture_option(const CLI::App& app) {
     constexpr std::array<std::string_view, 5> kOthers{"from", "to", "steps", "output", "help"};
@@ -125,6 +134,10 @@ void convert(const CLI::App& app, const Typed& typed, Arguments& arguments) {
     arguments.contours = parse_references("--contour", typed.contours);
     arguments.removed_names = parse_references("--remove", typed.removed_names);
     if (given("--time-step")) arguments.open.time_step = typed.time_step;
+    if (given("--cache")) arguments.cache = parse_bytes("--cache", typed.cache, 0);
+    if (given("--channel")) arguments.open.channel = typed.channel;
+    if (given("--series")) arguments.open.series = typed.series;
+    if (given("--level")) arguments.open.level = typed.level;
     if (given("--missing")) arguments.missing = parse_missing(typed.missing);
     if (given("--no-data")) convert_no_data(typed.no_data, arguments);
     if (given("--polarity")) convert_polarity(typed.polarity, arguments);
@@ -163,6 +176,7 @@ void convert(const CLI::App& app, const Typed& typed, Arguments& arguments) {
                                                  {"elements", TreeDetail::elements},
                                                  {"contours", TreeDetail::contours}});
     check_both(arguments);
+    check_box(arguments);
 }
 
 /// Moves options before the verb behind it, so that `isoatlas --json info FILE` works. Returns the verb, "" if there is none.

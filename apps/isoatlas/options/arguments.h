@@ -35,8 +35,9 @@ struct Arguments {
     // Input
     OpenOptions open;
     MissingPolicy missing;
-    std::optional<SampleBox> box;    ///< only this part of the volume
-    std::optional<double> gaussian;  ///< filter first: sigma in the unit of the spacing
+    std::optional<SampleBox> box;       ///< only this part of the volume
+    std::optional<std::int64_t> cache;  ///< bytes on disk for files of other machines
+    std::optional<double> gaussian;     ///< filter first: sigma in the unit of the spacing
     InputChoices inputs;
     bool voxel_units = false;                ///< measures in voxels, not in the units of the file
     std::optional<PolarityChoice> polarity;  ///< objects of high or low values; none: of high ones, or what a store holds

@@ -22,11 +22,6 @@ void add_build(CLI::App& app, Arguments& arguments, Typed& typed) {
     app.add_flag("--restart", arguments.restart, "Discard the phases of an earlier build");
 }
 
-/// Options applied to the samples first.
-void add_shape(CLI::App& app, Typed& typed) {
-    app.add_option("--box", typed.box, "Only the samples FIRST:END (END not included) of each axis")->type_name("X:X,Y:Y[,Z:Z]");
-}
-
 /// References: options/object_reference.h.
 void add_objects(CLI::App& app, Typed& typed, const std::string& meaning) {
     app.add_option("--object", typed.objects, meaning + ". 2: of the table, c3: cavity, v81275: voxel, or a name")->type_name("REF[@T]");
@@ -162,11 +157,8 @@ void spectrum_options(CLI::App& app, Arguments& arguments, Typed& typed) {
     add_output(app, arguments, ".csv .svg .json", false);
 }
 
-void table131_options(CLI::App& app, Arguments& /*arguments*/, Typed& typed) { add_shape(app, typed); }
-
 void compare_options(CLI::App& app, Arguments& arguments, Typed& typed) {
     add_tau(app, typed, "The isovalue of the surfaces, whose active cells are searched");
-    add_shape(app, typed);
     app.add_option("--methods", arguments.methods, "Only these: names as in --json, separated by commas; surfaces, searches, or all")
         ->type_name("LIST");
     add_number(app, "--isovalues", arguments.samples, "Also search at N isovalues, to see how times grow (with a page 9; 0: none)")
@@ -181,8 +173,7 @@ void compare_options(CLI::App& app, Arguments& arguments, Typed& typed) {
     add_output(app, arguments, ".html: pictures, tables and plots; .webp .png: pictures alone", false);
 }
 
-void convert_options(CLI::App& app, Arguments& arguments, Typed& typed) {
-    add_shape(app, typed);
+void convert_options(CLI::App& app, Arguments& arguments, Typed& /*typed*/) {
     add_output(app, arguments, ".nrrd .npy .raw .mha .mrc .nii .nii.gz .vti .tif", true);
 }
 
@@ -236,7 +227,20 @@ void add_reading(CLI::App& app, Arguments& arguments, Typed& typed) {
         ->type_name("NAME")
         ->group(group);
     app.add_option("--value-unit", typed.value_unit, "Unit of the values: HU, SUV, Bq/ml, ...")->type_name("NAME")->group(group);
-    add_number(app, "--time-step", typed.time_step, "Volume of a 4D file, from 0")->type_name("N")->group(group);
+    add_number(app, "--time-step", typed.time_step, "Which volume of a time series, from 0")->type_name("N")->group(group);
+    app.add_option("--channel", typed.channel, "Which channel of several: its name, or its number from 0")
+        ->type_name("NAME|N")
+        ->group(group);
+    app.add_option("--series", typed.series, "Which series of a DICOM folder: its identifier, or its number from 0")
+        ->type_name("ID|N")
+        ->group(group);
+    add_number(app, "--level", typed.level, "Which level of a resolution pyramid, 0 (default) the finest")->type_name("N")->group(group);
+    app.add_option("--box", typed.box, "Only the samples FIRST:END (END not included) of each axis")
+        ->type_name("X:X,Y:Y[,Z:Z]")
+        ->group(group);
+    app.add_option("--cache", typed.cache, "Of addresses (https://...): what is kept on disk for the next time, such as 1G (default) or 0")
+        ->type_name("SIZE")
+        ->group(group);
     app.add_flag("--skip-rest", arguments.open.skip_rest, "Ignore bytes after the samples; without it they are an error")->group(group);
     app.add_flag("--follow-links", arguments.open.follow_links, "Follow headers and links to files outside their folder")->group(group);
     app.add_option("--missing", typed.missing, "Replace NaN and infinite samples by VALUE; below: less than every value")
@@ -273,11 +277,11 @@ void add_polarity(CLI::App& app, Typed& typed) {
 void add_options_of(const std::string& verb, CLI::App& app, Arguments& arguments, Typed& typed) {
     using Add = void (*)(CLI::App&, Arguments&, Typed&);
     static const std::map<std::string_view, Add> list{
-        {"tree", tree_options},       {"info", info_options},         {"objects", objects_options},   {"measure", measure_options},
-        {"extract", extract_options}, {"render", render_options},     {"animate", animate_options},   {"label", label_options},
-        {"build", build_options},     {"atlas", atlas_options},       {"view", view_options},         {"ask", ask_options},
-        {"handles", handles_options}, {"spectrum", spectrum_options}, {"table131", table131_options}, {"convert", convert_options},
-        {"phantom", phantom_options}, {"verify", verify_options},     {"name", name_options},         {"compare", compare_options},
+        {"tree", tree_options},       {"info", info_options},         {"objects", objects_options}, {"measure", measure_options},
+        {"extract", extract_options}, {"render", render_options},     {"animate", animate_options}, {"label", label_options},
+        {"build", build_options},     {"atlas", atlas_options},       {"view", view_options},       {"ask", ask_options},
+        {"handles", handles_options}, {"spectrum", spectrum_options}, {"convert", convert_options}, {"phantom", phantom_options},
+        {"verify", verify_options},   {"name", name_options},         {"compare", compare_options},
     };
     if (const auto found = list.find(verb); found != list.end()) found->second(app, arguments, typed);
 }

@@ -9,14 +9,14 @@ namespace isoatlas::cli {
 
 /// Options as typed; converted after parsing, so that all messages have one form.
 struct Typed {
-    std::string box, dims, type, endian, spacing, origin, missing, interpolant = "trilinear", tunnel_height, shell = "all",
-                                                                   style = "compact", boundary = "closed", detail = "events", memory, space,
-                                                                   polarity;
+    std::string box, dims, type, endian, spacing, origin, missing, channel, series, cache,
+        interpolant = "trilinear", tunnel_height, shell = "all", style = "compact", boundary = "closed", detail = "events", memory, space,
+        polarity;
     std::vector<std::string> objects, contours, removed_names;
     TypedSelection selection;
     std::string unit, value_unit, gaussian, no_data, labels = "auto";
     double tau = 0;
-    std::int64_t skip = 0, time_step = 0;
+    std::int64_t skip = 0, time_step = 0, level = 0;
     PictureWords picture;
 };
 

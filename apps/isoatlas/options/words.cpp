@@ -109,7 +109,7 @@ std::int64_t parse_count(const std::string& option, const std::string& word) {
     return count;
 }
 
-std::int64_t parse_bytes(const std::string& option, const std::string& word) {
+std::int64_t parse_bytes(const std::string& option, const std::string& word, std::int64_t least) {
     static const std::map<std::string, double> units{{"", 1}, {"k", 0x1p10}, {"m", 0x1p20}, {"g", 0x1p30}, {"t", 0x1p40}};
     std::string unit;
     std::size_t digits = 0;
@@ -121,10 +121,11 @@ std::int64_t parse_bytes(const std::string& option, const std::string& word) {
         if (unit.ends_with(end)) unit.resize(unit.size() - end.size());
     }
     double number = 0;
-    constexpr double kMin = 80 * 0x1p20, kMax = 0x1p62;
+    constexpr double kMax = 0x1p62;
     const auto factor = units.find(unit);
     const bool good = factor != units.end() && read_number(word.substr(0, digits), number) && number * factor->second < kMax;
-    if (!good || number * factor->second < kMin) bad_word(option, word, "a size of at least 80M, such as 500M or 2G");
+    if (!good || number * factor->second < static_cast<double>(least))
+        bad_word(option, word, "a size" + std::string(least > 0 ? " of at least 80M" : "") + ", such as 500M or 2G");
     return static_cast<std::int64_t>(number * factor->second);
 }
 

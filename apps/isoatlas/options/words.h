@@ -50,8 +50,8 @@ template <class T>
 /// A positive whole number.
 [[nodiscard]] std::int64_t parse_count(const std::string& option, const std::string& word);
 
-/// "1G", "500M", "1.5 GiB": K, M, G, T are powers of 1024. At least 80 MiB.
-[[nodiscard]] std::int64_t parse_bytes(const std::string& option, const std::string& word);
+/// "1G", "500M", "1.5 GiB": K, M, G, T are powers of 1024. least: bytes.
+[[nodiscard]] std::int64_t parse_bytes(const std::string& option, const std::string& word, std::int64_t least = kMinMemory);
 
 /// "0.7,0.7,1" or "2" (the same for all axes); with two numbers the third is `rest`.
 [[nodiscard]] Vec3 parse_vector(const std::string& option, const std::string& word, double rest);

@@ -3,6 +3,7 @@
 #include <exception>
 
 #include "text/advice.h"
+#include "text/choices.h"
 #include "text/document.h"
 #include "text/terminal.h"
 
@@ -25,13 +26,14 @@ const char* kind_name(ErrorKind kind) {
 
 }  // namespace
 
-int report(const Error& failed, bool json, Terminal& terminal) {
+int report(const Error& failed, const std::vector<std::string>& words, bool json, Terminal& terminal) {
     const Error error = with_options(failed);
     const int code = static_cast<int>(error.kind());
     Terminal::Style style = terminal.style();
     style.quiet = false;
     terminal.set_style(style);
-    terminal.say(std::string("isoatlas: ") + error.what());
+    const std::vector<ChoiceCommand> choices = commands_of(error, words);
+    terminal.say(std::string("isoatlas: ") + error.what() + (choices.empty() ? "" : "\n" + lines_of(choices)));
     if (!json) return code;
     const ErrorText& text = error.text();
     Json document_of_error = document("error");
@@ -44,7 +46,8 @@ int report(const Error& failed, bool json, Terminal& terminal) {
                                   {"expected", text.expected},
                                   {"next", text.next},
                                   {"reason", name_of(text.reason)},
-                                  {"value", text.value}};
+                                  {"value", text.value},
+                                  {"choices", json_of(choices)}};
     try {
         print(terminal, document_of_error);
         terminal.finish();

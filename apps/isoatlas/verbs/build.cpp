@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "data/input.h"
 #include "data/session.h"
 #include "data/store_beside.h"
 #include "options/parse_errors.h"
@@ -191,7 +192,7 @@ int run_build(const Arguments& arguments, Terminal& terminal) {
         throw Error(ErrorKind::usage,
                     {.file = arguments.file, .what = "is already a store", .expected = "a volume", .next = "name the volume file"});
     }
-    const std::unique_ptr<VolumeReader> reader = open_volume(arguments.file, arguments.open);
+    const std::unique_ptr<VolumeReader> reader = open_input(arguments).reader;
     for (const std::string& note : arguments.inputs.assumed) terminal.say("note: " + note);
     if (arguments.dry_run) return dry_run(arguments, terminal, *reader, build_options(arguments, reader->info()));
     const BuildReport report = build_store(arguments, terminal, *reader);

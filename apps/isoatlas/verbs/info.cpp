@@ -6,7 +6,10 @@
 
 #include <fmt/format.h>
 
+#include "data/input.h"
 #include "data/session.h"
+#include "data/source.h"
+#include "text/choices.h"
 #include "text/document.h"
 #include "text/terminal.h"
 #include "text/values.h"
@@ -101,6 +104,18 @@ void add_survey(Json& json, const VolumeInfo& info, const Values& values) {
     entry["advised_gaussian"] = values.sigma > 0 ? Json(values.sigma) : Json(nullptr);
 }
 
+/// What else the file holds.
+void add_volumes(Json& json, const VolumeInfo& info) {
+    const FileVolumes& volumes = info.volumes;
+    json["channels"] = {{"names", volumes.channels}, {"channel", volumes.channel}};
+    json["time_steps"] = {{"count", volumes.time_steps},
+                          {"time_step", volumes.time_step},
+                          {"times", volumes.times},
+                          {"unit", volumes.time_unit.empty() ? Json(nullptr) : Json(volumes.time_unit)}};
+    json["levels"] = {{"sizes", volumes.levels}, {"level", volumes.level}};
+    json["chunk"] = info.chunk[0] > 0 ? Json(info.chunk) : Json(nullptr);
+}
+
 Json to_json(const VolumeInfo& info, const Values& values, const Cost& cost) {
     Json json = document("info", info);
     json["file"] = {
@@ -115,6 +130,7 @@ Json to_json(const VolumeInfo& info, const Values& values, const Cost& cost) {
     json["values"] = range;
     json["missing_samples"] = values.known || values.missing > 0 ? Json(values.missing) : Json(nullptr);
     add_survey(json, info, values);
+    add_volumes(json, info);
     const auto bytes = [](double count) { return static_cast<std::int64_t>(count); };
     json["estimate"] = {{"memory_bytes", {{"smooth", bytes(cost.memory_smooth)}, {"noise", bytes(cost.memory_noise)}}},
                         {"seconds", {{"smooth", cost.seconds_smooth}, {"noise", cost.seconds_noise}}}};
@@ -163,6 +179,30 @@ void print_survey(std::ostream& out, const VolumeInfo& info, const Values& value
     }
 }
 
+/// "0 DAPI, 1 GFP": each line says which one is described here.
+void print_volumes(std::ostream& out, const VolumeInfo& info) {
+    constexpr std::size_t kMostNames = 32;
+    const FileVolumes& volumes = info.volumes;
+    if (volumes.channels.size() > 1) {
+        out << "channels     " << volumes.channels.size() << ":";
+        for (std::size_t i = 0; i < std::min(volumes.channels.size(), kMostNames); ++i)
+            out << (i > 0 ? ", " : " ") << i << (volumes.channels[i].empty() ? "" : " " + volumes.channels[i]);
+        out << (volumes.channels.size() > kMostNames ? ", ..." : "") << "; this is " << volumes.channel << '\n';
+    }
+    if (volumes.time_steps > 1) {
+        out << "time steps   0 to " << volumes.time_steps - 1 << "; this is " << volumes.time_step;
+        const auto step = static_cast<std::size_t>(volumes.time_step);
+        if (step < volumes.times.size()) out << fmt::format(", at {:.6g} {}", volumes.times[step], volumes.time_unit);
+        out << '\n';
+    }
+    if (volumes.levels.size() > 1) {
+        out << "levels       ";
+        for (std::size_t i = 0; i < volumes.levels.size(); ++i)
+            out << (i > 0 ? ", " : "") << i << " " << extent_text({.rank = info.extent.rank, .size = volumes.levels[i]});
+        out << "; this is " << volumes.level << '\n';
+    }
+}
+
 void print_text(Terminal& terminal, const VolumeInfo& info, const Values& values, const Arguments& arguments) {
     std::ostream& out = terminal.out();
     out << terminal.bold(shown_name(info.path)) << '\n';
@@ -171,6 +211,7 @@ void print_text(Terminal& terminal, const VolumeInfo& info, const Values& values
     if (!info.description.empty()) out << "description  " << info.description << '\n';
     out << "samples      " << extent_text(info.extent) << "  " << name_of(info.type) << "  (" << count_text(info.extent.voxels())
         << " voxels, " << bytes_text(static_cast<double>(info.file_bytes)) << " on disk)\n";
+    print_volumes(out, info);
     print_geometry(out, info);
     const Scale scale(info);
     if (!info.calibration.is_linear_identity()) {
@@ -194,15 +235,50 @@ void print_text(Terminal& terminal, const VolumeInfo& info, const Values& values
                                    .next = "isoatlas build " + shell_word(arguments.file) + " -o FILE.atlas; or isoatlas objects --tau T"});
 }
 
-}  // namespace
+/// Opens the file; where the user has left a channel or time step open, the first one.
+std::unique_ptr<VolumeReader> open_any(Arguments& arguments, std::vector<std::string>& notes) {
+    for (;;) {
+        try {
+            return open_input(arguments).reader;
+        } catch (const Error& error) {
+            if (error.reason() == Reason::channel_needed && !arguments.open.channel) {
+                arguments.open.channel = "0";
+                notes.emplace_back("this is the first channel; --channel chooses another one");
+            } else if (error.reason() == Reason::time_step_needed && !arguments.open.time_step) {
+                arguments.open.time_step = 0;
+                notes.emplace_back("this is the first time step; --time-step chooses another one");
+            } else {
+                throw;
+            }
+        }
+    }
+}
 
-int run_info(const Arguments& arguments, Terminal& terminal) {
+/// A file of several things that share no grid is a list of them.
+int list_choices(const Error& error, const Arguments& arguments, Terminal& terminal) {
+    std::vector<std::string> words{"info", arguments.file};
+    if (arguments.open.follow_links) words.emplace_back("--follow-links");
+    const std::vector<ChoiceCommand> choices = commands_of(error, words);
+    if (arguments.json) {
+        Json json = document("choices");
+        json["file"] = error.text().file;
+        json["what"] = error.text().what;
+        json["choices"] = json_of(choices);
+        print(terminal, json);
+        return 0;
+    }
+    terminal.out() << terminal.bold(shown_name(arguments.file)) << ": " << error.text().what << '\n' << lines_of(choices);
+    return 0;
+}
+
+int describe_input(Arguments arguments, Terminal& terminal) {
     Session session(arguments, terminal);
     VolumeInfo info;
     Values values;
     std::optional<SurfacePreview> preview;
     if (is_atlas(arguments.file)) {
         const Atlas atlas(arguments.file, {.corrections = corrections_of(arguments)});
+        check_store_options(arguments, atlas);
         const std::array<double, 2> range = atlas.range();
         info = atlas.info();
         info.notes.push_back("built with " + interpolant_text(info, atlas.interpolant(), atlas.tunnel_height()) +
@@ -211,10 +287,12 @@ int run_info(const Arguments& arguments, Terminal& terminal) {
         if (arguments.tau) preview = atlas.preview(Scale(info).stored(*arguments.tau));
     } else {
         if (arguments.tau) refuse_tau(arguments);
-        const std::unique_ptr<VolumeReader> reader = open_volume(arguments.file, arguments.open);
+        std::vector<std::string> notes;
+        const std::unique_ptr<VolumeReader> reader = open_any(arguments, notes);
         info = reader->info();
         values = read_values(*reader, session);
         info.notes = reader->info().notes;  // notes found at the end of the file
+        info.notes.insert(info.notes.end(), notes.begin(), notes.end());
     }
     if (arguments.voxel_units) info.geometry = Geometry{};
     if (arguments.json) {
@@ -227,6 +305,17 @@ int run_info(const Arguments& arguments, Terminal& terminal) {
     if (preview) print_preview(terminal.out(), *preview, *arguments.tau);
     terminal.next("isoatlas objects " + shell_word(arguments.file) + reading_options(arguments));
     return 0;
+}
+
+}  // namespace
+
+int run_info(const Arguments& arguments, Terminal& terminal) {
+    try {
+        return describe_input(arguments, terminal);
+    } catch (const Error& error) {
+        if (error.reason() != Reason::dataset_needed && error.reason() != Reason::series_needed) throw;
+        return list_choices(error, arguments, terminal);
+    }
 }
 
 }  // namespace isoatlas::cli

@@ -8,6 +8,7 @@
 #include <spawn.h>
 #include <unistd.h>
 
+#include "data/input.h"
 #include "data/session.h"
 #include "data/store_awaited.h"
 #include "text/advice.h"
@@ -99,7 +100,7 @@ void check_scene_of(const Arguments& arguments, const SceneFile& scene, const st
     if (atlas)
         check_scene(scene, atlas->info());
     else if (!arguments.file.ends_with(".atlas"))
-        check_scene(scene, open_volume(arguments.file, arguments.open)->info());
+        check_scene(scene, open_input(arguments).reader->info());
 }
 
 /// What a user should know of links that do not open, or will not.
@@ -183,7 +184,7 @@ int run_view(const Arguments& arguments, Terminal& terminal) {
         } catch (const Error& error) {
             if (interrupted()) return 0;
             server.fail(with_options(error));  // the page shows it too
-            code = report(error, arguments.json, terminal);
+            code = report(error, {}, arguments.json, terminal);
             terminal.say("note: there is no store to show, see the page; Ctrl-C ends the viewer with exit code " + std::to_string(code));
         }
     }

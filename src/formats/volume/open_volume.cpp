@@ -210,9 +210,8 @@ void check_choices(const VolumeInfo& info, const OpenOptions& options) {
 
 /// FILE:/DATASET as the file and OpenOptions::dataset, unless a file has that name.
 std::pair<std::string, OpenOptions> without_dataset(const std::string& path, OpenOptions options) {
-    const std::size_t colon = path.find(":/");
-    const bool is_address = path.starts_with("http://") || path.starts_with("https://");
-    if (options.dataset || colon == 0 || colon == std::string::npos || is_address || anything_at(path)) return {path, options};
+    const std::size_t colon = path.find(":/", is_address(path) ? path.find("//") + 2 : 0);
+    if (options.dataset || colon == 0 || colon == std::string::npos || (!is_address(path) && anything_at(path))) return {path, options};
     options.dataset = path.substr(colon + 1);
     return {path.substr(0, colon), options};
 }
@@ -222,7 +221,7 @@ std::pair<std::string, OpenOptions> without_dataset(const std::string& path, Ope
 std::unique_ptr<VolumeReader> open_volume(const std::string& given, const OpenOptions& given_options) {
     const auto [path, options] = without_dataset(given, given_options);
     const bool folder = is_directory(path);
-    if (!folder && !anything_at(path)) missing_file(path);
+    if (!folder && !is_address(path) && !anything_at(path)) missing_file(path);
     std::unique_ptr<VolumeReader> reader = folder ? open_folder(path, options) : open_file_volume(path, options);
     check_choices(reader->info(), options);
     reader->info_.path = given;

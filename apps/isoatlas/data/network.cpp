@@ -1,0 +1,38 @@
+#include "data/network.h"
+
+#include <cstdlib>
+
+#include <fmt/format.h>
+#include <isoatlas/remote.h>
+
+#include "text/interrupt.h"
+#include "text/terminal.h"
+#include "text/values.h"
+
+namespace isoatlas::cli {
+namespace {
+
+bool is_address(const std::string& word) { return word.starts_with("http://") || word.starts_with("https://"); }
+
+}  // namespace
+
+void use_network(const Arguments& arguments) {
+    if (arguments.verb == "ask" || !is_address(arguments.file)) return;
+    RemoteOptions options;
+    if (arguments.cache) options.disk_cache = *arguments.cache;
+    const char* token = std::getenv("ISOATLAS_BEARER_TOKEN");  // NOLINT(concurrency-mt-unsafe): nobody sets it
+    if (token != nullptr) options.token = token;
+    options.cancelled = interrupted;
+    use_remote_files(options);
+}
+
+void tell_traffic(Terminal& terminal) {
+    const RemoteTraffic traffic = remote_traffic();
+    if (traffic.requests == 0 && traffic.from_disk == 0) return;
+    terminal.detail(fmt::format("network: {}, {}{}; {} from the cache on disk", counted(traffic.requests, "request"),
+                                bytes_text(static_cast<double>(traffic.bytes)),
+                                traffic.repeated > 0 ? fmt::format(" ({} repeated)", traffic.repeated) : "",
+                                bytes_text(static_cast<double>(traffic.from_disk))));
+}
+
+}  // namespace isoatlas::cli

@@ -1,0 +1,15 @@
+// Files of other machines, for the command line.
+#pragma once
+
+#include "options/arguments.h"
+
+namespace isoatlas::cli {
+
+class Terminal;
+
+/// Where an operand is an address: lets the libraries read it, with --cache and the token of the environment.
+void use_network(const Arguments& arguments);
+/// With -v: what was fetched.
+void tell_traffic(Terminal& terminal);
+
+}  // namespace isoatlas::cli

@@ -1,0 +1,314 @@
+#include "remote/remote_file.h"
+
+#include <algorithm>
+#include <cerrno>
+#include <chrono>
+#include <cstring>
+#include <mutex>
+#include <optional>
+#include <utility>
+
+#include "isoatlas/error.h"
+#include "remote/range_plan.h"
+
+namespace isoatlas {
+namespace {
+
+constexpr std::int64_t kFirstBytes = 64 << 10;                   ///< fetched when a file is opened
+constexpr std::int64_t kMostWhole = std::int64_t{32} << 20;      ///< of a server without ranges
+constexpr std::int64_t kLeastBytes = 32 << 10;                   ///< of a read that was not announced
+constexpr std::int64_t kMostAnnounced = std::int64_t{32} << 20;  ///< fetched ahead at once
+constexpr std::int64_t kMostAhead = std::int64_t{4} << 20;       ///< of reads that go on where the last one ended
+constexpr int kMostRedirects = 5;
+
+[[noreturn]] void fail(const Address& address, const std::string& what, const std::string& next, const std::string& expected = "") {
+    throw Error(ErrorKind::input, {.file = shown(address), .what = what, .expected = expected, .next = next});
+}
+
+[[noreturn]] void no_answer(const Address& address, const HttpAnswer& answer) {
+    if (answer.is_certificate) {
+        fail(address, "it is not certain that this is " + address.host + ": " + answer.problem,
+             "check the address and the clock of this machine; SSL_CERT_FILE names a file of other trusted authorities");
+    }
+    if (answer.status == 0) fail(address, "no answer: " + answer.problem, "check the address and the connection, and try again");
+    fail(address, "an answer that is not what was asked for: " + answer.problem,
+         "try again; if it persists, the server or something before it alters files");
+}
+
+[[noreturn]] void refused(const Address& address, int status, bool has_token) {
+    if (status == 404 || status == 410)
+        fail(address, "there is no such file on the server (" + std::to_string(status) + ")", "check the address");
+    if (status == 401 || status == 403) {
+        fail(address, "the server does not give this file (" + std::to_string(status) + ")",
+             has_token ? "check the token in ISOATLAS_BEARER_TOKEN: it may have expired"
+                       : "if it takes a bearer token, put it into the environment: ISOATLAS_BEARER_TOKEN");
+    }
+    fail(address, "the server answers " + std::to_string(status), status >= 500 ? "try again later" : "check the address");
+}
+
+[[noreturn]] void no_ranges(const Address& address, std::int64_t total) {
+    const std::string size = total < 0 ? "" : " of " + std::to_string(total) + " bytes";
+    fail(address, "the server sends whole files only, and this one" + size + " is too large for that",
+         "download it (curl -O) and open the copy, or put it on a server with range requests, such as nginx or `isoatlas serve`",
+         "a server that answers range requests (206)");
+}
+
+/// What tells versions of a file apart.
+struct Version {
+    std::string etag, last_modified;
+    std::int64_t size = 0;
+    [[nodiscard]] bool is_certain() const { return (!etag.empty() && !etag.starts_with("W/")) || !last_modified.empty(); }
+};
+
+bool is_same(const Version& version, const HttpAnswer& answer) {
+    const auto agree = [](const std::string& a, const std::string& b) { return a.empty() || b.empty() || a == b; };
+    return (answer.total < 0 || answer.total == version.size) && agree(version.etag, answer.etag) &&
+           agree(version.last_modified, answer.last_modified);
+}
+
+class RemoteFile final : public File {
+public:
+    RemoteFile(std::shared_ptr<RemoteShared> shared, Address address, Version version, const HttpAnswer& first)
+        : shared_(std::move(shared)), address_(std::move(address)), version_(std::move(version)), id_(shared_->files.fetch_add(1)) {
+        if (first.status == 200) {
+            whole_ = first.body;
+            return;
+        }
+        if (version_.is_certain()) {
+            cached_ = shared_->disk.open(address_.url + "\n" + version_.etag + "\n" + version_.last_modified + "\n" +
+                                         std::to_string(version_.size));
+        }
+        for (const AnswerPart& part : first.parts)
+            shared_->pieces.add(id_, part.range.begin,
+                                std::span(first.body).subspan(part.place, static_cast<std::size_t>(part.range.bytes())));
+    }
+    ~RemoteFile() override { shared_->pieces.forget(id_); }
+
+    std::int64_t size() const override { return version_.size; }
+
+    std::ptrdiff_t read_at(std::int64_t offset, std::span<std::byte> out) override {
+        if (offset < 0) return -EINVAL;
+        out = out.first(static_cast<std::size_t>(std::clamp<std::int64_t>(version_.size - offset, 0, std::ssize(out))));
+        std::size_t done = there(offset, out);
+        if (done == out.size()) return std::ssize(out);
+        const std::scoped_lock lock(fetching_);
+        done = there(offset, out);  // another thread may have fetched it
+        const std::int64_t begin = offset + static_cast<std::int64_t>(done), end = offset + std::ssize(out);
+        if (begin == end) return std::ssize(out);
+        const bool goes_on = offset <= reached_ && reached_ < end;
+        ahead_ = goes_on ? std::min(2 * ahead_, kMostAhead) : kLeastBytes;
+        reached_ = end;
+        const std::vector<FileRange> gaps = shared_->pieces.missing(id_, {begin, std::min(std::max(end, begin + ahead_), version_.size)});
+        fetch(gaps, offset, out);
+        std::int64_t position = begin;
+        for (const FileRange& gap : gaps) {
+            copy_present({position, std::min(gap.begin, end)}, offset, out);
+            position = gap.end;
+        }
+        copy_present({position, end}, offset, out);
+        return std::ssize(out);
+    }
+
+    std::ptrdiff_t read_nowait(std::int64_t offset, std::span<std::byte> out) override {
+        out = out.first(static_cast<std::size_t>(std::clamp<std::int64_t>(version_.size - offset, 0, std::ssize(out))));
+        return there(offset, out) == out.size() ? std::ssize(out) : -EAGAIN;
+    }
+
+    void prefetch(std::int64_t offset, std::int64_t bytes) override {
+        const FileRange range{offset, std::min(offset + bytes, version_.size)};
+        prefetch_ranges({&range, 1});
+    }
+
+    void prefetch_ranges(std::span<const FileRange> ranges) override {
+        if (!whole_.empty()) return;
+        std::vector<FileRange> wanted;  // what stays in memory until it is read
+        std::int64_t left = std::min(kMostAnnounced, shared_->options.memory / 2);
+        for (const FileRange& range : ranges) {
+            if (left <= 0) break;
+            wanted.push_back({range.begin, std::min(range.end, range.begin + left)});
+            left -= wanted.back().bytes();
+        }
+        const std::scoped_lock lock(fetching_);
+        fetch(wanted, 0, {});
+    }
+
+private:
+    /// How many of the bytes are in memory, from the first one on; they are copied.
+    std::size_t there(std::int64_t offset, std::span<std::byte> out) {
+        if (whole_.empty()) return shared_->pieces.read(id_, offset, out);
+        if (!out.empty()) std::memcpy(out.data(), whole_.data() + offset, out.size());
+        return out.size();
+    }
+
+    std::vector<FileRange> missing(std::span<const FileRange> ranges) const {
+        std::vector<FileRange> all;
+        for (const FileRange& range : ranges) std::ranges::copy(shared_->pieces.missing(id_, range), std::back_inserter(all));
+        return all;
+    }
+
+    /// Copies a range that was in memory; fetches it where other files have replaced it since.
+    void copy_present(const FileRange& range, std::int64_t offset, std::span<std::byte> out) {
+        if (range.bytes() <= 0) return;
+        const auto part = out.subspan(static_cast<std::size_t>(range.begin - offset), static_cast<std::size_t>(range.bytes()));
+        if (there(range.begin, part) < part.size()) fetch({range}, offset, out);
+    }
+
+    /// Brings ranges into memory, and copies what lies in [offset, offset + out.size()) of them. The caller holds fetching_.
+    void fetch(const std::vector<FileRange>& ranges, std::int64_t offset, std::span<std::byte> out) {
+        const auto take = [&](std::int64_t begin, std::span<const std::byte> bytes) {
+            shared_->pieces.add(id_, begin, bytes);
+            copy_part(begin, bytes, offset, out);
+        };
+        for (const FileRange& range : missing(ranges)) shared_->from_disk += shared_->disk.load(cached_, range, take);
+        std::vector<FileRange> wanted = missing(ranges);
+        if (wanted.size() > 1 && takes_several_) wanted = fetch_sets(plan_range_sets(wanted, shared_->options.connections), take);
+        std::vector<RangeSet> single;
+        for (const FileRange& request : plan_requests(wanted)) single.push_back({request});
+        (void)fetch_sets(single, take);
+    }
+
+    /// Asks for each set in one request. Returns the ranges that a server which does not answer several in one request has left out.
+    template <class Take>
+    std::vector<FileRange> fetch_sets(const std::vector<RangeSet>& sets, const Take& take) {
+        std::vector<FileRange> left;
+        if (sets.empty()) return left;
+        const std::vector<HttpAnswer> answers = shared_->client.get(address_, sets, 0);
+        for (std::size_t i = 0; i < sets.size(); ++i) {
+            const HttpAnswer& answer = answers[i];
+            if (sets[i].size() > 1 && (answer.lacks_ranges || answer.status == 200 || answer.status == 416) && is_same(version_, answer)) {
+                takes_several_ = false;
+                left.insert(left.end(), sets[i].begin(), sets[i].end());
+                continue;
+            }
+            check(answer);
+            for (const AnswerPart& part : answer.parts) {
+                const auto bytes = std::span(answer.body).subspan(part.place, static_cast<std::size_t>(part.range.bytes()));
+                take(part.range.begin, bytes);
+                shared_->disk.store(cached_, part.range.begin, bytes);
+            }
+        }
+        return left;
+    }
+
+    static void copy_part(std::int64_t begin, std::span<const std::byte> bytes, std::int64_t offset, std::span<std::byte> out) {
+        const std::int64_t first = std::max(begin, offset), last = std::min(begin + std::ssize(bytes), offset + std::ssize(out));
+        if (first >= last) return;
+        std::memcpy(out.data() + (first - offset), bytes.data() + (first - begin), static_cast<std::size_t>(last - first));
+    }
+
+    void check(const HttpAnswer& answer) const {
+        const bool has_version = answer.total >= 0 || !answer.etag.empty();
+        const bool is_other =
+            has_version && (answer.status == 206 || answer.status == 200 || answer.status == 416) && !is_same(version_, answer);
+        if (is_other || answer.status == 412) fail(address_, "the file has changed on the server since it was opened", "open it again");
+        if (!answer.problem.empty()) no_answer(address_, answer);
+        if (answer.status == 200) no_ranges(address_, answer.total);
+        if (answer.status != 206) refused(address_, answer.status, !shared_->options.token.empty());
+    }
+
+    std::shared_ptr<RemoteShared> shared_;
+    Address address_;
+    Version version_;
+    std::int64_t id_;
+    std::vector<std::byte> whole_;  ///< of a server without ranges
+    std::mutex fetching_;
+    CachedVersion cached_;
+    bool takes_several_ = true;                       ///< ranges in one request, as far as is known
+    std::int64_t reached_ = 0, ahead_ = kLeastBytes;  ///< the end of the last read; bytes to fetch when the next one goes on there
+};
+
+/// An open file that several users share.
+class SharedFile final : public File {
+public:
+    explicit SharedFile(std::shared_ptr<File> file) : file_(std::move(file)) {}
+    std::int64_t size() const override { return file_->size(); }
+    std::ptrdiff_t read_at(std::int64_t offset, std::span<std::byte> out) override { return file_->read_at(offset, out); }
+    std::ptrdiff_t read_nowait(std::int64_t offset, std::span<std::byte> out) override { return file_->read_nowait(offset, out); }
+    void prefetch(std::int64_t offset, std::int64_t bytes) override { file_->prefetch(offset, bytes); }
+    void prefetch_ranges(std::span<const FileRange> ranges) override { file_->prefetch_ranges(ranges); }
+
+private:
+    std::shared_ptr<File> file_;
+};
+
+/// The answer for the first bytes, and where redirects on the same host led to.
+std::pair<Address, HttpAnswer> first_answer(RemoteShared& shared, const Address& given) {
+    Address address = given;
+    const RangeSet first{{0, kFirstBytes}};
+    for (int redirects = 0;; ++redirects) {
+        HttpAnswer answer = std::move(shared.client.get(address, {&first, 1}, kMostWhole)[0]);
+        if (answer.status < 300 || answer.status > 399 || answer.location.empty()) return {address, std::move(answer)};
+        const Address to = redirected(address, answer.location);
+        if (!stays_on_host(given, to)) {
+            fail(given, "the server redirects to another host, " + to.scheme + "://" + to.host,
+                 "if you trust that host, give the address that it redirects to: curl -sI shows it");
+        }
+        if (redirects == kMostRedirects) fail(given, "the server redirects in a circle", "check the address");
+        address = to;
+    }
+}
+
+}  // namespace
+
+RemoteShared::RemoteShared(const RemoteOptions& given)
+    : options(given), client(options), pieces(options.memory), disk(remote_cache_folder(options), options.disk_cache) {}
+
+namespace {
+
+std::shared_ptr<File> open_now(const std::shared_ptr<RemoteShared>& shared, const std::string& given) {
+    auto [address, answer] = first_answer(*shared, parse_address(given));
+    if (answer.status == 416) {  // an empty file has no first byte
+        answer.status = 200, answer.total = 0, answer.problem.clear();
+        answer.body.clear();
+    }
+    if (!answer.problem.empty()) no_answer(address, answer);
+    if (answer.status == 200 && answer.total != std::ssize(answer.body)) no_ranges(address, answer.total);
+    if (answer.status != 200 && answer.status != 206) refused(address, answer.status, !shared->options.token.empty());
+    if (answer.total < 0)
+        fail(address, "the server does not say how long the file is", "download it and open the copy",
+             "Content-Range: bytes FIRST-LAST/SIZE");
+    Version version{answer.etag, answer.last_modified, answer.total};
+    return std::make_shared<RemoteFile>(shared, std::move(address), std::move(version), answer);
+}
+
+}  // namespace
+
+std::unique_ptr<File> open_remote_file(const std::shared_ptr<RemoteShared>& shared, const std::string& given) {
+    std::shared_ptr<File> file = shared->recent.find(given);
+    if (file == nullptr) {
+        file = open_now(shared, given);
+        shared->recent.add(given, file);
+    }
+    return std::make_unique<SharedFile>(std::move(file));
+}
+
+std::shared_ptr<File> RecentFiles::find(const std::string& address) {
+    const std::scoped_lock lock(mutex_);
+    const auto now = std::chrono::steady_clock::now();
+    std::erase_if(files_, [&](const Recent& recent) { return now - recent.opened > kRecent; });
+    const auto found = std::ranges::find(files_, address, &Recent::address);
+    return found == files_.end() ? nullptr : found->file;
+}
+
+void RecentFiles::forget() {
+    const std::scoped_lock lock(mutex_);
+    files_.clear();
+}
+
+void RecentFiles::add(const std::string& address, std::shared_ptr<File> file) {
+    const std::scoped_lock lock(mutex_);
+    if (files_.size() == kMostRecent) files_.pop_front();
+    files_.push_back({address, std::move(file), std::chrono::steady_clock::now()});
+}
+
+bool exists_remotely(RemoteShared& shared, const std::string& given) {
+    try {
+        const HttpAnswer answer = first_answer(shared, parse_address(given)).second;
+        return answer.status == 206 || answer.status == 200 || answer.status == 416;
+    } catch (const Error& error) {
+        if (error.kind() == ErrorKind::cancelled) throw;
+        return false;
+    }
+}
+
+}  // namespace isoatlas

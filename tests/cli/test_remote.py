@@ -1,0 +1,224 @@
+#!/usr/bin/env python3
+"""Files on web servers: the same answers as from a file of this machine, or one message that says what is wrong. Faulty servers included."""
+import random
+import shutil
+import unittest
+from pathlib import Path
+
+from file_server import FileServer
+from harness import CLI, CliTest
+
+
+def small_pieces(seed):
+    """One answer in a hundred is cut short, and more at the beginning."""
+    chance = random.Random(seed)
+
+    def fault(server, handler, path, number):
+        if chance.random() < 0.01 or number in (2, 3):
+            server.send_file(handler, part=100)
+            return True
+        return False
+    return fault
+
+
+class Remote(CliTest):
+    phantoms = {"field.nrrd": ["random-field", "--size", "40"], "text.nii": ["demo", "--size", "32"]}
+
+    @classmethod
+    def setUpClass(cls):
+        super().setUpClass()
+        for arguments in (["build", "field.nrrd", "-o", "field.atlas"], ["extract", "field.atlas", "--tau", "1", "-o", "local.ply"]):
+            done = cls.start(arguments)
+            assert done.returncode == 0, done.stderr
+
+    @classmethod
+    def start(cls, arguments, **options):
+        options["environment"] = {"XDG_CACHE_HOME": str(cls.folder / "cache"), **options.get("environment", {})}
+        return super().start(arguments, **options)
+
+    def setUp(self):
+        shutil.rmtree(self.folder / "cache", ignore_errors=True)
+
+    def assert_same_surface(self, server, *options):
+        out = self.folder / "remote.ply"
+        out.unlink(missing_ok=True)
+        done = self.run_ok("extract", f"{server.address}/field.atlas", "--tau", "1", "-o", out, *options)
+        self.assertEqual(out.read_bytes(), (self.folder / "local.ply").read_bytes())
+        return done
+
+    def test_volumes_and_stores_answer_as_files_do(self):
+        with FileServer(self.folder) as server:
+            for name in ("field.nrrd", "text.nii"):
+                remote, local = (self.run_json("info", path) for path in (f"{server.address}/{name}", name))
+                for document in (remote, local):
+                    document["volume"]["path"] = ""
+                    document["file"]["data_file"] = ""
+                self.assertEqual(remote, local)
+            self.assert_same_surface(server)
+            self.assertIn("/field.atlas", {path for path, _ in server.seen})
+
+    def test_servers_of_single_ranges_answer_as_well(self):
+        def one_of_several(server, handler, path, number):
+            several = handler.headers.get("Range", "").split(",")
+            if len(several) == 1:
+                return False
+            handler.headers.replace_header("Range", several[0])
+            server.send_file(handler)
+            return True
+        for options in ({"several": False}, {"faults": one_of_several}):
+            with FileServer(self.folder, **options) as server:
+                shutil.rmtree(self.folder / "cache", ignore_errors=True)
+                self.assert_same_surface(server)
+
+    def test_a_surface_reads_a_part_of_the_store(self):
+        with FileServer(self.folder) as server:
+            self.run_ok("extract", f"{server.address}/field.atlas", "--tau", "3", "-o", "small.ply", "--cache", "0")
+            self.assertLess(server.bytes, (self.folder / "field.atlas").stat().st_size)
+
+    def test_what_was_read_is_kept_for_the_next_process(self):
+        with FileServer(self.folder) as server:
+            self.assert_same_surface(server)
+            first = server.bytes
+            self.assert_same_surface(server)
+            self.assertLess(server.bytes - first, first / 2)
+            again = server.bytes
+            self.assert_same_surface(server, "--cache", "0")
+            self.assertGreater(server.bytes - again, first / 2)
+
+    def test_damaged_pieces_of_the_cache_are_fetched_again(self):
+        with FileServer(self.folder) as server:
+            self.assert_same_surface(server)
+            pieces = [path for path in (self.folder / "cache").rglob("*-*") if path.is_file()]
+            self.assertNotEqual(pieces, [])
+            for number, piece in enumerate(pieces):
+                data = bytearray(piece.read_bytes())
+                data[len(data) // 2] ^= 1
+                piece.write_bytes(bytes(data[:-1]) if number % 2 else bytes(data))
+            self.assert_same_surface(server)
+
+    def test_the_cache_keeps_its_budget(self):
+        with FileServer(self.folder) as server:
+            self.run_ok("objects", f"{server.address}/field.nrrd", "--cache", "100k")
+            held = sum(path.stat().st_size for path in (self.folder / "cache").rglob("*") if path.is_file())
+            self.assertLessEqual(held, 100 * 1024)
+
+    def test_answers_cut_short_are_asked_for_again(self):
+        with FileServer(self.folder, faults=small_pieces(7)) as server:
+            self.assert_same_surface(server)
+
+    def test_a_server_that_dies_is_told(self):
+        def dies(server, handler, path, number):
+            if number > 4:
+                handler.close_connection = True
+                handler.connection.close()
+                return True
+            return False
+        with FileServer(self.folder, faults=dies) as server:
+            self.run_error(3, "extract", f"{server.address}/field.atlas", "--tau", "1", "-o", "none.ply", says="no answer",
+                           next_says="try again")
+            self.assertFalse((self.folder / "none.ply").exists())
+
+    def test_a_wrong_range_is_never_taken(self):
+        def shifts(server, handler, path, number):
+            data = (self.folder / "field.atlas").read_bytes()
+            server.send(handler, 206, data[1:65537], **{"Content-Range": f"bytes 1-65536/{len(data)}"})
+            return True
+        with FileServer(self.folder, faults=shifts) as server:
+            self.run_error(3, "info", f"{server.address}/field.atlas", says="another range")
+
+    def test_a_longer_answer_is_never_taken(self):
+        def adds(server, handler, path, number):
+            data = (self.folder / "field.atlas").read_bytes() + bytes(100000)
+            server.send(handler, 206, data, **{"Content-Range": f"bytes 0-65535/{len(data)}"})
+            return True
+        with FileServer(self.folder, faults=adds) as server:
+            self.run_error(3, "info", f"{server.address}/field.atlas", says="more bytes")
+
+    def test_a_file_that_changes_is_told(self):
+        copy = self.folder / "changing.atlas"
+        shutil.copy(self.folder / "field.atlas", copy)
+
+        def changes(server, handler, path, number):
+            if number == 3:
+                copy.write_bytes(copy.read_bytes() + b"1")
+            return False
+        with FileServer(self.folder, faults=changes) as server:
+            done = self.start(["extract", f"{server.address}/changing.atlas", "--tau", "1", "-o", "none.ply"])
+            self.assertEqual(done.returncode, 3, done.stderr)
+            self.assertIn("changed on the server", done.stderr)
+
+    def test_a_server_without_ranges(self):
+        with FileServer(self.folder, ranges=False) as server:
+            self.assert_same_surface(server)  # small: taken as a whole
+            with open(self.folder / "large.raw", "wb") as large:
+                large.truncate(200 << 20)
+            self.run_error(3, "info", f"{server.address}/large.raw", "--dims", "200x1024x1024", "--type", "uint8",
+                           says="whole files only", next_says="isoatlas serve")
+            self.assertLess(server.bytes, 100 << 20)
+
+    def test_tokens_are_sent_and_never_shown(self):
+        with FileServer(self.folder, token="s3cret") as server:
+            error = self.run_error(3, "info", f"{server.address}/field.nrrd", says="401", next_says="ISOATLAS_BEARER_TOKEN")
+            self.assertNotIn("s3cret", str(error))
+            done = self.start(["info", f"{server.address}/field.nrrd", "-v"], environment={"ISOATLAS_BEARER_TOKEN": "s3cret"})
+            self.assertEqual(done.returncode, 0, done.stderr)
+            self.assertNotIn("s3cret", done.stdout + done.stderr)
+            wrong = self.start(["info", f"{server.address}/field.nrrd"], environment={"ISOATLAS_BEARER_TOKEN": "other"})
+            self.assertIn("expired", wrong.stderr)
+            for path in (self.folder / "cache").rglob("*"):
+                self.assertNotIn("s3cret", str(path))
+
+    def test_redirects_stay_on_the_host(self):
+        def moved(server, handler, path, number):
+            if path != "/old.nrrd":
+                return False
+            server.send(handler, 302, b"", **{"Location": "/field.nrrd"})
+            return True
+
+        def elsewhere(server, handler, path, number):
+            server.send(handler, 302, b"", **{"Location": "https://elsewhere.example/field.nrrd?signature=s3cret"})
+            return True
+
+        def circle(server, handler, path, number):
+            server.send(handler, 301, b"", **{"Location": path})
+            return True
+        with FileServer(self.folder, faults=moved) as server:
+            self.run_ok("info", f"{server.address}/old.nrrd")
+        with FileServer(self.folder, faults=elsewhere) as server:
+            error = self.run_error(3, "info", f"{server.address}/field.nrrd", says="another host, https://elsewhere.example")
+            self.assertNotIn("s3cret", str(error))
+        with FileServer(self.folder, faults=circle) as server:
+            self.run_error(3, "info", f"{server.address}/field.nrrd", says="circle")
+
+    def test_what_cannot_be_opened(self):
+        with FileServer(self.folder) as server:
+            gone = server.address
+            self.run_error(3, "info", f"{gone}/none.nrrd", says="there is no such file on the server (404)")
+            self.run_error(3, "info", gone.replace("http:", "https:") + "/field.nrrd", says="no answer")
+        self.run_error(3, "info", f"{gone}/field.nrrd", says="no answer")
+        error = self.run_error(2, "info", "https://me:s3cret@localhost/field.nrrd", says="user name", next_says="ISOATLAS_BEARER_TOKEN")
+        self.assertNotIn("s3cret", error["message"])
+
+    def test_busy_servers_are_asked_again(self):
+        def busy(server, handler, path, number):
+            if number > 2:
+                return False
+            server.send(handler, 503 if number == 1 else 429, b"later", **{"Retry-After": "0"})
+            return True
+        with FileServer(self.folder, faults=busy) as server:
+            self.run_ok("info", f"{server.address}/field.nrrd")
+            self.assertGreaterEqual(server.requests, 3)
+
+    def test_an_empty_file(self):
+        Path(self.folder / "empty.nrrd").write_bytes(b"")
+        with FileServer(self.folder) as server:
+            self.run_error(3, "info", f"{server.address}/empty.nrrd", says="empty")
+
+    def test_outputs_do_not_go_to_servers(self):
+        with FileServer(self.folder) as server:
+            done = self.start(["convert", "field.nrrd", "-o", f"{server.address}/x.nrrd"])
+            self.assertEqual(done.returncode, 5, done.stderr)
+
+
+if __name__ == "__main__":
+    unittest.main()
