@@ -64,6 +64,11 @@ enum class Reason : std::uint16_t {
     no_datasets,             ///< OpenOptions::dataset is for files of many arrays
     no_such_level,           ///< OpenOptions::level is larger than the last one, which is the value
     built_without_format,    ///< this build of isoatlas lacks the library for a format; value: the library
+    no_ranges,               ///< a server sends whole files only, and this one is too large for that
+    redirected_elsewhere,    ///< a server redirects to another host; value: that host
+    address_token_needed,    ///< a server does not give the file without RemoteOptions::token
+    address_token_refused,   ///< or with this one
+    address_with_password,   ///< an address with a user name or password in it
     missing_samples,         ///< NaN, infinite or no-data values; MissingPolicy says what to put in their place
     only_missing_samples,    ///< there are no others
     replacement_not_stored,  ///< MissingPolicy::value is not a value of the type of the samples

@@ -1,5 +1,9 @@
 #include "core.h"
 
+#include <cstdlib>
+
+#include "isoatlas/remote.h"
+
 #include <isoatlas/array.h>
 #include <isoatlas/version.h>
 
@@ -20,10 +24,22 @@ void add_calls(py::module_& module) {
 
 }  // namespace isoatlas::python
 
+namespace {
+
+/// https:// addresses wherever a path of a file to read is taken.
+void read_addresses() {
+    isoatlas::RemoteOptions options;
+    if (const char* token = std::getenv("ISOATLAS_BEARER_TOKEN")) options.token = token;
+    isoatlas::use_remote_files(options);
+}
+
+}  // namespace
+
 PYBIND11_MODULE(_core, module) {
     using namespace isoatlas::python;
     module.attr("version") = ISOATLAS_VERSION;
     translate_exceptions();
+    read_addresses();
     add_calls(module);
     add_volumes(module);
     add_surfaces(module);

@@ -52,6 +52,11 @@ const char* name_of(Reason reason) {
         case Reason::no_datasets: return "no_datasets";
         case Reason::no_such_level: return "no_such_level";
         case Reason::built_without_format: return "built_without_format";
+        case Reason::no_ranges: return "no_ranges";
+        case Reason::redirected_elsewhere: return "redirected_elsewhere";
+        case Reason::address_token_needed: return "address_token_needed";
+        case Reason::address_token_refused: return "address_token_refused";
+        case Reason::address_with_password: return "address_with_password";
         case Reason::missing_samples: return "missing_samples";
         case Reason::only_missing_samples: return "only_missing_samples";
         case Reason::replacement_not_stored: return "replacement_not_stored";

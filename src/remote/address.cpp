@@ -38,7 +38,8 @@ Address parse_address(const std::string& text) {
     const bool has_secret = !part_of(url.get(), CURLUPART_USER).empty() || !part_of(url.get(), CURLUPART_PASSWORD).empty();
     if (has_secret) {
         throw Error(ErrorKind::usage, {.what = "an address with a user name or password in it is not opened: it would be shown and stored",
-                                       .next = "leave them out; a bearer token is taken from the environment: ISOATLAS_BEARER_TOKEN"});
+                                       .next = "leave them out; give a token beside the address",
+                                       .reason = Reason::address_with_password});
     }
     if (code == CURLUE_OK) return address_of(url.get());
     throw Error(ErrorKind::usage, {.file = without_query(text),

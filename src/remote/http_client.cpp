@@ -101,7 +101,7 @@ public:
     std::unique_ptr<Connections> connections;
 };
 
-HttpClient::HttpClient(const RemoteOptions& options) : options_(options) { start_curl(); }
+HttpClient::HttpClient(const RemoteOptions& options) : options_(options) {}
 HttpClient::~HttpClient() = default;
 
 std::unique_ptr<HttpClient::Connections> HttpClient::take() {
@@ -123,6 +123,8 @@ RemoteTraffic HttpClient::traffic() const {
 }
 
 std::vector<HttpAnswer> HttpClient::get(const Address& address, std::span<const RangeSet> ranges, std::int64_t max_whole) {
+    if (ranges.empty()) return {};
+    start_curl();  // not before it is needed: a program that may read addresses starts as fast as before
     const Lease lease(*this);
     std::vector<HttpAnswer> answers(ranges.size());
     std::vector<std::size_t> open(ranges.size());

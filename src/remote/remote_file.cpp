@@ -21,8 +21,9 @@ constexpr std::int64_t kMostAnnounced = std::int64_t{32} << 20;  ///< fetched ah
 constexpr std::int64_t kMostAhead = std::int64_t{4} << 20;       ///< of reads that go on where the last one ended
 constexpr int kMostRedirects = 5;
 
-[[noreturn]] void fail(const Address& address, const std::string& what, const std::string& next, const std::string& expected = "") {
-    throw Error(ErrorKind::input, {.file = shown(address), .what = what, .expected = expected, .next = next});
+[[noreturn]] void fail(const Address& address, const std::string& what, const std::string& next, Reason reason = Reason::none,
+                       const std::string& value = "") {
+    throw Error(ErrorKind::input, {.file = shown(address), .what = what, .next = next, .reason = reason, .value = value});
 }
 
 [[noreturn]] void no_answer(const Address& address, const HttpAnswer& answer) {
@@ -40,8 +41,8 @@ constexpr int kMostRedirects = 5;
         fail(address, "there is no such file on the server (" + std::to_string(status) + ")", "check the address");
     if (status == 401 || status == 403) {
         fail(address, "the server does not give this file (" + std::to_string(status) + ")",
-             has_token ? "check the token in ISOATLAS_BEARER_TOKEN: it may have expired"
-                       : "if it takes a bearer token, put it into the environment: ISOATLAS_BEARER_TOKEN");
+             has_token ? "check the token: it may have expired" : "if the server takes a bearer token, give it one",
+             has_token ? Reason::address_token_refused : Reason::address_token_needed);
     }
     fail(address, "the server answers " + std::to_string(status), status >= 500 ? "try again later" : "check the address");
 }
@@ -49,8 +50,7 @@ constexpr int kMostRedirects = 5;
 [[noreturn]] void no_ranges(const Address& address, std::int64_t total) {
     const std::string size = total < 0 ? "" : " of " + std::to_string(total) + " bytes";
     fail(address, "the server sends whole files only, and this one" + size + " is too large for that",
-         "download it (curl -O) and open the copy, or put it on a server with range requests, such as nginx or `isoatlas serve`",
-         "a server that answers range requests (206)");
+         "download it and open the copy, or put it on a server that answers range requests, such as nginx", Reason::no_ranges);
 }
 
 /// What tells versions of a file apart.
@@ -241,7 +241,7 @@ std::pair<Address, HttpAnswer> first_answer(RemoteShared& shared, const Address&
         const Address to = redirected(address, answer.location);
         if (!stays_on_host(given, to)) {
             fail(given, "the server redirects to another host, " + to.scheme + "://" + to.host,
-                 "if you trust that host, give the address that it redirects to: curl -sI shows it");
+                 "if you trust that host, give the address that it redirects to", Reason::redirected_elsewhere, to.host);
         }
         if (redirects == kMostRedirects) fail(given, "the server redirects in a circle", "check the address");
         address = to;
@@ -265,8 +265,7 @@ std::shared_ptr<File> open_now(const std::shared_ptr<RemoteShared>& shared, cons
     if (answer.status == 200 && answer.total != std::ssize(answer.body)) no_ranges(address, answer.total);
     if (answer.status != 200 && answer.status != 206) refused(address, answer.status, !shared->options.token.empty());
     if (answer.total < 0)
-        fail(address, "the server does not say how long the file is", "download it and open the copy",
-             "Content-Range: bytes FIRST-LAST/SIZE");
+        fail(address, "the server does not say how long the file is", "download it and open the copy");
     Version version{answer.etag, answer.last_modified, answer.total};
     return std::make_shared<RemoteFile>(shared, std::move(address), std::move(version), answer);
 }

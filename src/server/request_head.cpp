@@ -41,6 +41,7 @@ private:
         if (name == http::field::authorization) return take_once(head.authorization, value, error);
         if (name == http::field::cookie) return take_once(head.cookie, value, error);
         if (name == http::field::origin) return take_once(head.origin, value, error);
+        if (name == http::field::range) return take_once(head.range, value, error);
         if (name == http::field::accept_encoding) head.accept_encoding.assign(value.data(), value.size());
         if (boost::beast::iequals(text, "X-Client")) return take_once(head.client, value, error);
         if (boost::beast::iequals(text, "X-Frame-Key")) return take_once(head.frame_key, value, error);

@@ -15,7 +15,7 @@ constexpr int kMaxFields = 100;
 struct RequestHead {
     std::string method, target;
     // header fields; empty: not sent
-    std::string host, authorization, cookie, client, accept_encoding, origin, fetch_site, frame_key;
+    std::string host, authorization, cookie, client, accept_encoding, range, origin, fetch_site, frame_key;
     bool keep_alive = false;                ///< may the connection be reused?
     bool is_old = false;                    ///< HTTP/1.0: no chunked response
     bool has_body = false;                  ///< a body follows

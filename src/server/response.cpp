@@ -7,7 +7,7 @@ namespace isoatlas {
 namespace {
 
 constexpr std::pair<const char*, const char*> kFields[] = {
-    {"X-Content-Type-Options", "nosniff"}, {"Referrer-Policy", "no-referrer"}, {"Cache-Control", "no-store"}, {"Accept-Ranges", "none"}};
+    {"X-Content-Type-Options", "nosniff"}, {"Referrer-Policy", "no-referrer"}, {"Cache-Control", "no-store"}};
 constexpr std::string_view kPolicy =
     "default-src 'none'; script-src 'unsafe-inline' 'wasm-unsafe-eval'; style-src 'unsafe-inline'; connect-src 'self'; "
     "img-src data: blob:; base-uri 'none'; form-action 'none'";
@@ -15,13 +15,16 @@ constexpr std::string_view kPolicy =
 std::string_view reason_of(int status) {
     switch (status) {
         case 200: return "OK";
+        case 206: return "Partial Content";
         case 303: return "See Other";
         case 400: return "Bad Request";
+        case 401: return "Unauthorized";
         case 403: return "Forbidden";
         case 404: return "Not Found";
         case 405: return "Method Not Allowed";
         case 409: return "Conflict";
         case 413: return "Content Too Large";
+        case 416: return "Range Not Satisfiable";
         case 421: return "Misdirected Request";
         case 431: return "Request Header Fields Too Large";
         case 503: return "Service Unavailable";
@@ -38,6 +41,7 @@ std::string text_of(const ResponseHead& head) {
     std::string text = "HTTP/1.1 " + std::to_string(head.status) + " ";
     (text += reason_of(head.status)) += "\r\n";
     for (const auto& [name, value] : kFields) add(text, name, value);
+    add(text, "Accept-Ranges", head.has_ranges ? "bytes" : "none");
     add(text, "Content-Security-Policy", std::string(kPolicy) + (head.may_be_framed ? "" : "; frame-ancestors 'none'"));
     for (const auto& [name, value] : head.fields) add(text, name, value);
     if (!head.type.empty()) add(text, "Content-Type", head.type);

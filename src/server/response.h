@@ -17,6 +17,7 @@ struct ResponseHead {
     std::vector<std::pair<std::string, std::string>> fields{};
     bool keep_alive = false;
     bool is_old = false;         ///< for HTTP/1.0
+    bool has_ranges = false;     ///< of a file that stays: ranges of it can be asked for
     bool may_be_framed = false;  ///< by pages of any site
 };
 

@@ -1,8 +1,13 @@
 #!/usr/bin/env python3
 """Files on web servers: the same answers as from a file of this machine, or one message that says what is wrong. Faulty servers included."""
+import json
 import random
 import shutil
+import signal
+import subprocess
 import unittest
+import urllib.error
+import urllib.request
 from pathlib import Path
 
 from file_server import FileServer
@@ -218,6 +223,47 @@ class Remote(CliTest):
         with FileServer(self.folder) as server:
             done = self.start(["convert", "field.nrrd", "-o", f"{server.address}/x.nrrd"])
             self.assertEqual(done.returncode, 5, done.stderr)
+
+    def test_the_other_side(self):
+        """`isoatlas serve`: whole files, ranges, several ranges; nothing outside of the folder."""
+        (self.folder / "served").mkdir(exist_ok=True)
+        shutil.copy(self.folder / "field.atlas", self.folder / "served")
+        (self.folder / "served" / ".secret").write_text("x")
+        (self.folder / "served" / "link").symlink_to(self.folder / "field.nrrd")
+        process = subprocess.Popen([CLI, "serve", "served", "--json"], cwd=self.folder, stdout=subprocess.PIPE, text=True)
+        try:
+            text = ""
+            while not text.endswith("}\n"):
+                text += process.stdout.readline()
+            document = json.loads(text)
+            self.assert_schema(document, "serve")
+            address = document["address"]
+            out = self.folder / "remote.ply"
+            self.run_ok("extract", f"{address}/field.atlas", "--tau", "1", "-o", out)
+            self.assertEqual(out.read_bytes(), (self.folder / "local.ply").read_bytes())
+            content = (self.folder / "field.atlas").read_bytes()
+            with urllib.request.urlopen(f"{address}/field.atlas") as answer:
+                self.assertEqual(answer.read(), content)
+                etag = answer.headers["ETag"]
+            asked = urllib.request.Request(f"{address}/field.atlas", headers={"Range": "bytes=5-9,-3"})
+            with urllib.request.urlopen(asked) as answer:
+                self.assertEqual((answer.status, answer.headers["ETag"]), (206, etag))
+                body = answer.read()
+            self.assertIn(b"\r\n\r\n" + content[5:10] + b"\r\n--", body)
+            self.assertIn(b"\r\n\r\n" + content[-3:] + b"\r\n--", body)
+            for path in ("none", ".secret", "link", "../field.nrrd", "%2e%2e/field.nrrd", "", "field.atlas/"):
+                with self.assertRaises(urllib.error.HTTPError, msg=path) as refused:
+                    urllib.request.urlopen(f"{address}/{path}")
+                self.assertEqual(refused.exception.code, 404, path)
+            strange = urllib.request.Request(f"{address}/field.atlas", headers={"Host": "evil.example"})
+            with self.assertRaises(urllib.error.HTTPError) as refused:
+                urllib.request.urlopen(strange)
+            self.assertEqual(refused.exception.code, 421)
+        finally:
+            process.send_signal(signal.SIGINT)
+            self.assertEqual(process.wait(), 0)
+            process.stdout.close()
+        self.run_error(3, "serve", "field.nrrd", says="is not a folder")
 
 
 if __name__ == "__main__":

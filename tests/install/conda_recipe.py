@@ -16,6 +16,7 @@ COUNTERPARTS = {
     "make": None, "npm": ("build", "nodejs"), "nodejs": ("build", "nodejs"), "g++": ("build", "compiler_cxx"), "cmake": ("build", "cmake"),
     "ninja-build": ("build", "ninja"), "libtbb-dev": ("host", "tbb-devel"), "zlib1g-dev": ("host", "zlib"), "libtiff-dev": ("host", "libtiff"),
     "libpugixml-dev": ("host", "pugixml"), "libhdf5-dev": ("host", "hdf5"), "libxxhash-dev": ("host", "xxhash"),
+    "libcurl4-openssl-dev": ("host", "libcurl"),
     "libdeflate-dev": ("host", "libdeflate"), "libqhull-dev": ("host", "qhull"), "libembree-dev": ("host", "embree"),
     "libwebp-dev": ("host", "libwebp-base"), "libboost-dev": ("host", "libboost-headers"), "libmeshoptimizer-dev": ("host", "meshoptimizer"),
     "libzstd-dev": ("host", "zstd"), "libcli11-dev": ("host", "cli11"), "pybind11-dev": ("host", "pybind11"), "python3-dev": ("host", "python"),

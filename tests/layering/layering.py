@@ -51,7 +51,7 @@ PUBLIC = {
     "methods/projection": "projection_methods",
     "catalogue": "page",
     "page": "label_page",
-    "server": "client server",
+    "server": "client folder_server server",
     "phantom": "phantom",
     "verify": "verify",
 }

@@ -20,7 +20,7 @@ namespace isoatlas::cli {
 namespace {
 
 bool reads_volumes(const std::string& verb) {
-    return verb != "phantom" && verb != "completion" && verb != "manual" && verb != "dump" && verb != "ask";
+    return verb != "phantom" && verb != "completion" && verb != "manual" && verb != "dump" && verb != "ask" && verb != "serve";
 }
 
 std::unique_ptr<CLI::App> make_parser(const Verb& verb, Arguments& arguments, Typed& typed) {
@@ -28,6 +28,7 @@ std::unique_ptr<CLI::App> make_parser(const Verb& verb, Arguments& arguments, Ty
     CLI::Option* operand = app->add_option(verb.operand, arguments.file,
                                            reads_volumes(verb.name) ? "The file (or folder of slices)"
                                            : verb.name == "dump"    ? "The store"
+                                           : verb.name == "serve"   ? "The folder"
                                            : verb.name == "ask"     ? "Address that `isoatlas view` printed"
                                                                     : "");
     operand->type_name("");

@@ -138,6 +138,12 @@ void view_options(CLI::App& app, Arguments& arguments, Typed& typed) {
     add_build(app, arguments, typed);
 }
 
+void serve_options(CLI::App& app, Arguments& arguments, Typed& /*typed*/) {
+    add_number(app, "--port", arguments.port, "Listen on this port of 127.0.0.1 (default: any that is free)")
+        ->check(in_range(1, 65535))
+        ->type_name("N");
+}
+
 void ask_options(CLI::App& app, Arguments& arguments, Typed& /*typed*/) { add_output(app, arguments, "the response", false); }
 
 void handles_options(CLI::App& app, Arguments& arguments, Typed& typed) {
@@ -279,7 +285,7 @@ void add_options_of(const std::string& verb, CLI::App& app, Arguments& arguments
     static const std::map<std::string_view, Add> list{
         {"tree", tree_options},       {"info", info_options},         {"objects", objects_options}, {"measure", measure_options},
         {"extract", extract_options}, {"render", render_options},     {"animate", animate_options}, {"label", label_options},
-        {"build", build_options},     {"atlas", atlas_options},       {"view", view_options},       {"ask", ask_options},
+        {"build", build_options},     {"atlas", atlas_options},       {"view", view_options},       {"ask", ask_options},         {"serve", serve_options},
         {"handles", handles_options}, {"spectrum", spectrum_options}, {"convert", convert_options}, {"phantom", phantom_options},
         {"verify", verify_options},   {"name", name_options},         {"compare", compare_options},
     };

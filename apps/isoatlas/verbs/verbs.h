@@ -13,6 +13,7 @@ class Source;
 class Terminal;
 
 int run_atlas(const Arguments& arguments, Terminal& terminal);
+int run_serve(const Arguments& arguments, Terminal& terminal);
 int run_view(const Arguments& arguments, Terminal& terminal);
 int run_info(const Arguments& arguments, Terminal& terminal);
 int run_tree(const Arguments& arguments, Terminal& terminal);

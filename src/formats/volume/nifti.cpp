@@ -1,4 +1,4 @@
-// NIfTI-1 and NIfTI-2: .nii, .nii.gz and pairs .hdr + .img (each may be compressed).
+// NIfTI-1 and NIfTI-2: .nii, .nii.gz and pairs .hdr + .img (each may be compressed). ANALYZE 7.5, their predecessor: pairs.
 #include "formats/volume/nifti_header.h"
 
 #include <algorithm>
@@ -133,10 +133,6 @@ std::int64_t data_offset(const std::string& path, const NiftiHeader& header, std
 NiftiHeader read_nifti_header(const std::string& path) {
     const std::vector<std::byte> bytes = header_bytes(path);
     const NiftiKind kind = nifti_kind(bytes);
-    if (kind == NiftiKind::analyze && bytes.size() >= static_cast<std::size_t>(kNifti1HeaderBytes)) {
-        unsupported(path, "is an ANALYZE 7.5 header (NIfTI without its mark 'n+1' or 'ni1'): it has no orientation", "NIfTI-1 or NIfTI-2",
-                    "convert it, e.g. with `nib-convert` of nibabel or `fslchfiletype NIFTI_GZ`");
-    }
     const std::int64_t size = kind == NiftiKind::nifti2 ? kNifti2HeaderBytes : kNifti1HeaderBytes;
     if (static_cast<std::int64_t>(bytes.size()) < size) {
         throw Error(ErrorKind::input, {.file = path,
@@ -153,6 +149,13 @@ NiftiHeader read_nifti_header(const std::string& path) {
                                        .next = "check the file, or give it the extension of its real format"});
     }
     return decode_nifti(bytes, kind);
+}
+
+/// What readers agree upon (SPM, nibabel); files of other programs may leave these fields to chance.
+void complete_analyze(const NiftiHeader& header, VolumeInfo& info) {
+    info.geometry.unit = header.analyze_unit;
+    info.notes.emplace_back("ANALYZE 7.5 does not say which side is left, nor where the volume lies");
+    if (!info.calibration.is_linear_identity()) info.notes.emplace_back("the scale factor of SPM was applied");
 }
 
 std::unique_ptr<ByteSource> open_samples(const std::string& path, std::int64_t offset) {
@@ -195,7 +198,7 @@ std::unique_ptr<VolumeReader> open_nifti(const std::string& path, const OpenOpti
     }
     VolumeInfo info;
     info.path = path;
-    info.format = header.version == 1 ? "NIfTI-1" : "NIfTI-2";
+    info.format = header.is_analyze ? "ANALYZE 7.5" : header.version == 1 ? "NIfTI-1" : "NIfTI-2";
     info.encoding = is_gzip(data_path) ? "gzip" : "raw";
     if (data_path != path) info.data_file = data_path;
     info.type = value_type(header_path, header);
@@ -205,6 +208,7 @@ std::unique_ptr<VolumeReader> open_nifti(const std::string& path, const OpenOpti
     const TimeStep step = choose_time_step(path, options, shape.volumes);
     info.geometry = nifti_geometry(header, shape.extent.rank, info.notes);
     if (header.slope != 0) set_calibration(info, header.slope, header.intercept);  // 0: no scaling
+    if (header.is_analyze) complete_analyze(header, info);
     info.description = header.description;
     info.file_bytes = file_size(header_path) + (data_path == header_path ? 0 : file_size(data_path));
     const std::int64_t offset = data_offset(header_path, header, info.notes);

@@ -80,6 +80,13 @@ NiftiHeader decode_nifti(std::span<const std::byte> bytes, NiftiKind kind) {
     NiftiHeader header = two ? decode_2(fields) : decode_1(fields);
     header.big_endian = big_endian;
     header.pair = characters(bytes, two ? 4 : 344, 2) == "ni";
+    if (kind == NiftiKind::analyze) {  // the same places up to the scale factor; what follows means something else
+        header.is_analyze = header.pair = true;
+        header.analyze_unit = fields.text(56, 4);
+        header.qform_code = header.sform_code = header.units = 0;
+        header.intercept = 0;
+        header.dim[0] = header.dim[0] == 4 && header.dim[4] == 1 ? 3 : header.dim[0];
+    }
     return header;
 }
 

@@ -15,6 +15,8 @@ struct NiftiHeader {
     int version = 1;
     bool big_endian = false;
     bool pair = false;                  ///< samples in an .img file
+    bool is_analyze = false;
+    std::string analyze_unit;           ///< of lengths
     std::array<std::int64_t, 8> dim{};  ///< dim[0]: number of dimensions
     int datatype = 0, bits = 0;
     std::array<double, 8> pixdim{};  ///< pixdim[0]: the sign of the third axis of the qform
@@ -32,7 +34,7 @@ enum class NiftiKind : std::uint8_t { no, nifti1, nifti2, analyze };
 /// Looks at the size field and the magic; bytes may be fewer than a header. analyze: an old header without magic.
 [[nodiscard]] NiftiKind nifti_kind(std::span<const std::byte> bytes);
 
-/// Decodes a header of kind nifti1 (348 bytes) or nifti2 (540 bytes). No field is checked.
+/// Decodes a header of kind nifti1 or analyze (348 bytes) or nifti2 (540 bytes). No field is checked.
 [[nodiscard]] NiftiHeader decode_nifti(std::span<const std::byte> bytes, NiftiKind kind);
 
 }  // namespace isoatlas

@@ -44,7 +44,7 @@ constexpr std::array<ReadFormat, 8> kReadFormats = {{{"NRRD", ".nrrd .nhdr", loo
 /// Common formats that isoatlas does not read, and how to convert them.
 constexpr std::array<std::pair<std::string_view, const char*>, 11> kForeign = {
     {{".dcm", "convert the DICOM series to NIfTI, for example with dcm2niix"},
-     {".hdr", "give the .nii or .mhd file of the pair; Analyze 7.5 pairs must be converted to NIfTI"},
+     {".hdr", "give the .nii or .mhd file of the pair; of an ANALYZE pair the .img file must be beside it"},
      {".img", "open it as RAW with the sizes and the type of its samples, or convert the pair to NIfTI"},
      {".h5", "export the dataset to .npy (h5py and numpy.save)"},
      {".hdf5", "export the dataset to .npy (h5py and numpy.save)"},

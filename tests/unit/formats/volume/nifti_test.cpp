@@ -256,9 +256,34 @@ TEST(Nifti, WhatIsNotRead) {
     expect_helpful(failure(NiftiFile().offset(-1)), ErrorKind::input, "vox_offset");
     expect_helpful(failure(NiftiFile().dims({3, 32767, 32767, 32767})), ErrorKind::input, "bytes");
     expect_helpful(failure(NiftiFile(2).dims({3, std::int64_t{1} << 40, std::int64_t{1} << 40, 1})), ErrorKind::input, "63 bits");
-    std::string analyze = NiftiFile().magic(std::string(4, '\0')).header().substr(0, 348);
-    expect_helpful(failure_of_loading(folder.write("old.hdr", analyze)), ErrorKind::unsupported, "ANALYZE");
     expect_helpful(failure_of_loading(folder.write("no.nii", "this is no volume")), ErrorKind::input, "header");
+}
+
+TEST(Nifti, AnalyzePairs) {
+    const test::TestFolder folder;
+    for (const bool big : {false, true}) {
+        SCOPED_TRACE(big ? "big" : "little");
+        NiftiFile file(1, big);
+        file.magic(std::string(4, '\0')).offset(0).pixdim(1, 0.5).pixdim(2, 0.7).pixdim(3, 2).codes(7, 9).scale(0, 3);
+        const std::string samples = telling_bytes(48);
+        const std::string path = folder.write("old.hdr", file.header().substr(0, 348));
+        const std::string image = folder.write("old.img", file.with(samples).substr(352));
+        for (const std::string& name : {path, image}) {
+            const Volume volume = load_volume(name);
+            EXPECT_EQ(volume.info.format, "ANALYZE 7.5");
+            EXPECT_EQ(volume.info.geometry.spacing, (Vec3{0.5F, 0.7F, 2}));
+            EXPECT_EQ(volume.info.geometry.space, "unknown");
+            EXPECT_TRUE(volume.info.calibration.is_identity());
+            EXPECT_EQ(std::string(reinterpret_cast<const char*>(volume.bytes.data()), volume.bytes.size()), samples);
+        }
+        folder.write("old.hdr", file.scale(2, 3).header().substr(0, 348));
+        EXPECT_EQ(load_volume(path).info.calibration.slope, 2);
+        EXPECT_EQ(load_volume(path).info.calibration.intercept, 0);
+    }
+    folder.write("alone.hdr", NiftiFile().magic(std::string(4, '\0')).header().substr(0, 348));
+    expect_helpful(failure_of_loading(folder.path("alone.hdr")), ErrorKind::input, "alone.img");
+    expect_helpful(failure_of_loading(folder.write("short.hdr", NiftiFile().magic(std::string(4, '\0')).header().substr(0, 300))),
+                   ErrorKind::input, "ends after 300 bytes");
 }
 
 TEST(Nifti, Damage) {
