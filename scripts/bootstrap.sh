@@ -18,7 +18,7 @@ demo|libtbb-dev|threads
 demo|zlib1g-dev|compressed NRRD, NIfTI, MetaImage and VTK files
 demo|libtiff-dev|TIFF stacks
 demo|libpugixml-dev|VTK XML files
-demo|libhdf5-dev|stores, VTKHDF files
+demo|libhdf5-dev|stores, VTKHDF files, HDF5 and NetCDF volumes
 demo|libcurl4-openssl-dev|files on web servers
 demo|libxxhash-dev|checksums of stores
 demo|libdeflate-dev|compressed trees in stores, PNG files
@@ -59,7 +59,8 @@ test|python3-mrcfile|independent reader and writer of MRC maps
 test|python3-tifffile|independent reader of the TIFF files we write
 test|chromium|opens the page
 test|python3-pil|independent reader of the pictures we write
-test|python3-h5py|independent reader of stores
+test|python3-h5py|independent reader of stores, writer of HDF5 volumes
+test|python3-netcdf4|independent writer of NetCDF files
 test|python3-networkx|independent reader of the trees we write
 test|debootstrap|a bare Debian, where the package is installed
 test|dpkg-dev|finds what a Debian package depends on

@@ -2,9 +2,8 @@
 
 #include <cstdlib>
 
-#include "isoatlas/remote.h"
-
 #include <isoatlas/array.h>
+#include <isoatlas/remote.h>
 #include <isoatlas/version.h>
 
 #include "call.h"

@@ -2,8 +2,6 @@
 // would crash), and its structures are written by the same calls as the arrays.
 #include "formats/common/hdf5_layout.h"
 
-#include <hdf5.h>
-
 #include <algorithm>
 #include <array>
 #include <cstring>
@@ -13,6 +11,7 @@
 #include <utility>
 
 #include "base/check.h"
+#include "formats/common/hdf5_handle.h"
 #include "isoatlas/error.h"
 
 namespace isoatlas {
@@ -119,22 +118,6 @@ struct Driver {
     }
 };
 
-/// RAII for an HDF5 identifier.
-class Handle {
-public:
-    Handle(hid_t id, herr_t (*close)(hid_t)) : id_(id), close_(close) {}
-    Handle(const Handle&) = delete;
-    Handle& operator=(const Handle&) = delete;
-    ~Handle() {
-        if (id_ >= 0) close_(id_);
-    }
-    operator hid_t() const { return id_; }  // NOLINT(google-explicit-constructor): implicit conversion to the number
-
-private:
-    hid_t id_;
-    herr_t (*close_)(hid_t);
-};
-
 hid_t hdf5_type(std::string_view type) {
     if (type == "uint8") return H5T_STD_U8LE;
     if (type == "int8") return H5T_STD_I8LE;
@@ -151,7 +134,7 @@ hid_t hdf5_type(std::string_view type) {
 
 hid_t create(Memory& memory, std::int64_t user_block) {
     H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
-    const Handle creation(H5Pcreate(H5P_FILE_CREATE), H5Pclose), access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
+    const Hdf5Handle creation(H5Pcreate(H5P_FILE_CREATE), H5Pclose), access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
     H5Pset_userblock(creation, static_cast<hsize_t>(user_block));
     H5Pset_obj_track_times(creation, 0);
     H5Pset_libver_bounds(access, H5F_LIBVER_V110, H5F_LIBVER_V110);  // its structures have checksums
@@ -165,12 +148,6 @@ void require_room() {
     constexpr std::size_t kTaken = std::size_t{4} << 20;
     std::byte* volatile room = new std::byte[kTaken];  // volatile: else the compiler removes both lines
     delete[] room;
-}
-
-/// HDF5 is not thread safe.
-std::mutex& hdf5_mutex() {
-    static std::mutex mutex;
-    return mutex;
 }
 
 }  // namespace
@@ -212,19 +189,19 @@ struct Hdf5Layout::Data {
     }
     /// Groups that HDF5 creates implicitly have time stamps.
     void add_groups(const std::string& name) const {
-        const Handle creation(H5Pcreate(H5P_GROUP_CREATE), H5Pclose);
+        const Hdf5Handle creation(H5Pcreate(H5P_GROUP_CREATE), H5Pclose);
         H5Pset_obj_track_times(creation, 0);
         for (std::size_t slash = name.find('/', 1); slash != std::string::npos; slash = name.find('/', slash + 1)) {
             const std::string group = name.substr(0, slash);
             if (H5Lexists(file, group.c_str(), H5P_DEFAULT) > 0) continue;
-            const Handle made(H5Gcreate2(file, group.c_str(), H5P_DEFAULT, creation, H5P_DEFAULT), H5Gclose);
+            const Hdf5Handle made(H5Gcreate2(file, group.c_str(), H5P_DEFAULT, creation, H5P_DEFAULT), H5Gclose);
             if (made < 0) no_memory("the group " + group);
         }
     }
     void set_attribute(const std::string& group, const char* name, hid_t type, hid_t space, const void* value) const {
         add_groups(group + "/");
-        const Handle owner(H5Gopen2(file, group.c_str(), H5P_DEFAULT), H5Gclose);
-        const Handle attribute(H5Acreate2(owner, name, type, space, H5P_DEFAULT, H5P_DEFAULT), H5Aclose);
+        const Hdf5Handle owner(H5Gopen2(file, group.c_str(), H5P_DEFAULT), H5Gclose);
+        const Hdf5Handle attribute(H5Acreate2(owner, name, type, space, H5P_DEFAULT, H5P_DEFAULT), H5Aclose);
         if (attribute < 0 || H5Awrite(attribute, type, value) < 0) no_memory(std::string("the attribute ") + name);
     }
 };
@@ -248,14 +225,14 @@ std::int64_t Hdf5Layout::add(const std::string& name, const std::string& type, c
     const std::lock_guard lock(hdf5_mutex());
     const std::vector<hsize_t> dims(shape.begin(), shape.end());
     data_->end_chunks();
-    const Handle space(H5Screate_simple(static_cast<int>(dims.size()), dims.data(), nullptr), H5Sclose);
-    const Handle creation(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
+    const Hdf5Handle space(H5Screate_simple(static_cast<int>(dims.size()), dims.data(), nullptr), H5Sclose);
+    const Hdf5Handle creation(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
     data_->add_groups(name);
     H5Pset_layout(creation, H5D_CONTIGUOUS);
     H5Pset_alloc_time(creation, H5D_ALLOC_TIME_EARLY);
     H5Pset_fill_time(creation, H5D_FILL_TIME_NEVER);
     H5Pset_obj_track_times(creation, 0);
-    const Handle set(H5Dcreate2(data_->file, name.c_str(), hdf5_type(type), space, H5P_DEFAULT, creation, H5P_DEFAULT), H5Dclose);
+    const Hdf5Handle set(H5Dcreate2(data_->file, name.c_str(), hdf5_type(type), space, H5P_DEFAULT, creation, H5P_DEFAULT), H5Dclose);
     if (set < 0) data_->no_memory("the array " + name);
     const haddr_t address = H5Dget_offset(set);
     return address == HADDR_UNDEF ? 0 : static_cast<std::int64_t>(address);
@@ -266,8 +243,8 @@ void Hdf5Layout::begin_chunks(const std::string& name, const std::string& type, 
     data_->end_chunks();
     const auto all = static_cast<hsize_t>(count);
     data_->chunk = static_cast<hsize_t>(chunk), data_->next_chunk = 0;
-    const Handle space(H5Screate_simple(1, &all, nullptr), H5Sclose);
-    const Handle creation(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
+    const Hdf5Handle space(H5Screate_simple(1, &all, nullptr), H5Sclose);
+    const Hdf5Handle creation(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
     data_->add_groups(name);
     H5Pset_chunk(creation, 1, &data_->chunk);
     H5Pset_shuffle(creation);
@@ -289,8 +266,8 @@ std::size_t Hdf5Layout::begin_rows(const std::string& name, const std::string& t
     const auto width = static_cast<hsize_t>(columns), height = static_cast<hsize_t>(chunk_rows);
     const std::array<hsize_t, 2> none{0, width}, most{H5S_UNLIMITED, width}, chunk{height, width};
     const int rank = columns > 1 ? 2 : 1;
-    const Handle space(H5Screate_simple(rank, none.data(), most.data()), H5Sclose);
-    const Handle creation(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
+    const Hdf5Handle space(H5Screate_simple(rank, none.data(), most.data()), H5Sclose);
+    const Hdf5Handle creation(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
     data_->add_groups(name);
     H5Pset_chunk(creation, rank, chunk.data());
     H5Pset_fill_time(creation, H5D_FILL_TIME_NEVER);
@@ -318,12 +295,12 @@ void Hdf5Layout::add_texts(const std::string& name, std::span<const std::string>
     std::vector<const char*> pointers;
     for (const std::string& text : texts) pointers.push_back(text.c_str());
     const hsize_t count = texts.size();
-    const Handle space(H5Screate_simple(1, &count, nullptr), H5Sclose), type(H5Tcopy(H5T_C_S1), H5Tclose);
+    const Hdf5Handle space(H5Screate_simple(1, &count, nullptr), H5Sclose), type(H5Tcopy(H5T_C_S1), H5Tclose);
     H5Tset_size(type, H5T_VARIABLE);  // UTF-8 that is called ASCII: VTK reads texts as ASCII, and HDF5 converts neither into the other
-    const Handle creation(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
+    const Hdf5Handle creation(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
     data_->add_groups(name);
     H5Pset_obj_track_times(creation, 0);
-    const Handle set(H5Dcreate2(data_->file, name.c_str(), type, space, H5P_DEFAULT, creation, H5P_DEFAULT), H5Dclose);
+    const Hdf5Handle set(H5Dcreate2(data_->file, name.c_str(), type, space, H5P_DEFAULT, creation, H5P_DEFAULT), H5Dclose);
     const void* const bytes = static_cast<const void*>(pointers.data());
     if (set < 0 || H5Dwrite(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, bytes) < 0) data_->no_memory("the texts " + name);
 }
@@ -331,13 +308,13 @@ void Hdf5Layout::add_texts(const std::string& name, std::span<const std::string>
 void Hdf5Layout::set_attribute(const std::string& group, const char* name, std::span<const std::int64_t> numbers) {
     const std::lock_guard lock(hdf5_mutex());
     const hsize_t count = numbers.size();
-    const Handle space(count == 1 ? H5Screate(H5S_SCALAR) : H5Screate_simple(1, &count, nullptr), H5Sclose);
+    const Hdf5Handle space(count == 1 ? H5Screate(H5S_SCALAR) : H5Screate_simple(1, &count, nullptr), H5Sclose);
     data_->set_attribute(group, name, H5T_STD_I64LE, space, numbers.data());
 }
 
 void Hdf5Layout::set_attribute(const std::string& group, const char* name, std::string_view text) {
     const std::lock_guard lock(hdf5_mutex());
-    const Handle space(H5Screate(H5S_SCALAR), H5Sclose), type(H5Tcopy(H5T_C_S1), H5Tclose);
+    const Hdf5Handle space(H5Screate(H5S_SCALAR), H5Sclose), type(H5Tcopy(H5T_C_S1), H5Tclose);
     H5Tset_size(type, text.size());
     H5Tset_strpad(type, H5T_STR_NULLPAD);
     data_->set_attribute(group, name, type, space, text.data());

@@ -40,6 +40,13 @@ using FirstBytes = std::span<const std::byte>;
 [[nodiscard]] bool looks_like_vtk_legacy(FirstBytes first, const std::string& path);
 [[nodiscard]] std::unique_ptr<VolumeReader> open_vtk_legacy(const std::string& path, const OpenOptions& options);
 
+[[nodiscard]] bool looks_like_hdf5(FirstBytes first, const std::string& path);
+[[nodiscard]] std::unique_ptr<VolumeReader> open_hdf5(const std::string& path, const OpenOptions& options);
+
+/// The classic formats; NetCDF-4 files are files of HDF5.
+[[nodiscard]] bool looks_like_netcdf(FirstBytes first, const std::string& path);
+[[nodiscard]] std::unique_ptr<VolumeReader> open_netcdf(const std::string& path, const OpenOptions& options);
+
 /// A directory of slices, one image file each. Without looks_like: every directory is read as one.
 [[nodiscard]] std::unique_ptr<VolumeReader> open_folder(const std::string& path, const OpenOptions& options);
 

@@ -281,7 +281,7 @@ TEST(Nifti, AnalyzePairs) {
         EXPECT_EQ(load_volume(path).info.calibration.intercept, 0);
     }
     folder.write("alone.hdr", NiftiFile().magic(std::string(4, '\0')).header().substr(0, 348));
-    expect_helpful(failure_of_loading(folder.path("alone.hdr")), ErrorKind::input, "alone.img");
+    expect_helpful(failure_of_loading(folder / "alone.hdr"), ErrorKind::input, "alone.img");
     expect_helpful(failure_of_loading(folder.write("short.hdr", NiftiFile().magic(std::string(4, '\0')).header().substr(0, 300))),
                    ErrorKind::input, "ends after 300 bytes");
 }

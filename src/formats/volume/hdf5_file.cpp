@@ -1,0 +1,274 @@
+#include "formats/volume/hdf5_file.h"
+
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <new>
+#include <span>
+
+#include "formats/common/text.h"
+#include "formats/volume/hdf5_object.h"
+#include "isoatlas/text.h"
+
+namespace isoatlas {
+namespace {
+
+constexpr hssize_t kMostOfAttribute = 65536;
+constexpr std::size_t kMostBytesOfAttribute = std::size_t{16} << 20;
+
+#if H5_VERSION_GE(1, 12, 0)
+using Hdf5Info = H5O_info1_t;
+#else
+using Hdf5Info = H5O_info_t;
+#endif
+
+/// What HDF5 says about the innermost cause of its last error.
+std::string last_hdf5_error() {
+    std::string text;
+    const auto keep = [](unsigned n, const H5E_error2_t* error, void* out) -> herr_t {
+        if (n == 0 && error->desc != nullptr) *static_cast<std::string*>(out) = error->desc;
+        return 0;
+    };
+    H5Ewalk2(H5E_DEFAULT, H5E_WALK_UPWARD, keep, &text);
+    return text;
+}
+
+/// An attribute with its type and the number of its elements; count 0: there is none, or too much of it.
+struct OpenAttribute {
+    Hdf5Handle attribute, type, space;
+    hssize_t count = 0;
+};
+
+OpenAttribute open_attribute(const Hdf5File::Data& data, const std::string& object, const std::string& name) {
+    OpenAttribute open;
+    if (H5Aexists_by_name(data.file, object.c_str(), name.c_str(), data.links) <= 0) return open;
+    open.attribute = {H5Aopen_by_name(data.file, object.c_str(), name.c_str(), H5P_DEFAULT, data.links), H5Aclose};
+    if (open.attribute < 0) return open;
+    open.type = {H5Aget_type(open.attribute), H5Tclose};
+    open.space = {H5Aget_space(open.attribute), H5Sclose};
+    if (open.type < 0 || open.space < 0) return open;
+    const hssize_t count = H5Sget_simple_extent_npoints(open.space);
+    const std::size_t bytes = H5Tget_size(open.type);
+    const bool is_bounded =
+        count > 0 && count <= kMostOfAttribute && bytes > 0 && bytes <= kMostBytesOfAttribute / static_cast<std::size_t>(count);
+    if (is_bounded && H5Aget_storage_size(open.attribute) > 0) open.count = count;
+    return open;
+}
+
+std::vector<std::string> texts_of_any_length(const OpenAttribute& open) {
+    const Hdf5Handle type(H5Tcopy(H5T_C_S1), H5Tclose);
+    H5Tset_size(type, H5T_VARIABLE);
+    H5Tset_cset(type, H5Tget_cset(open.type));
+    std::vector<char*> read(static_cast<std::size_t>(open.count), nullptr);
+    std::vector<std::string> texts;
+    if (H5Aread(open.attribute, type, read.data()) < 0) return texts;
+    for (const char* text : read) texts.emplace_back(text == nullptr ? "" : text);
+    H5Dvlen_reclaim(type, open.space, H5P_DEFAULT, read.data());
+    return texts;
+}
+
+std::vector<std::string> texts_of_one_length(const OpenAttribute& open) {
+    const std::size_t size = H5Tget_size(open.type);
+    std::string read(size * static_cast<std::size_t>(open.count), '\0');
+    std::vector<std::string> texts;
+    if (H5Aread(open.attribute, open.type, read.data()) < 0) return texts;
+    const bool is_padded = H5Tget_strpad(open.type) == H5T_STR_SPACEPAD;
+    for (std::size_t i = 0; i < read.size(); i += size) {
+        std::string_view text = std::string_view(read).substr(i, size);
+        text = text.substr(0, text.find('\0'));
+        while (is_padded && size > 1 && text.ends_with(' ')) text.remove_suffix(1);
+        texts.emplace_back(text);
+    }
+    return texts;
+}
+
+}  // namespace
+
+void Hdf5File::Data::fail(const std::string& where, const std::string& what) {
+    const std::string reason = last_hdf5_error();
+    const std::optional<Error> cause = access.failure ? access.failure : access.missing;
+    access.forget();
+    if (cause) throw Error(*cause);
+    throw Error(ErrorKind::input, {.file = access.path,
+                                   .where = shown_name(where),
+                                   .what = what + (reason.empty() ? "" : " (HDF5: " + shown_name(reason) + ")"),
+                                   .next = "the file is damaged or cut off: get it again"});
+}
+
+Hdf5Handle Hdf5File::Data::open_array(const std::string& path, hid_t properties) {
+    access.forget();
+    // The path may lead through links, which H5Dopen2 follows by the properties of the file alone.
+    Hdf5Info info{};
+    if (H5Oget_info_by_name2(file, path.c_str(), &info, H5O_INFO_BASIC, links) < 0) fail(path, "cannot be found");
+    if (info.type != H5O_TYPE_DATASET) fail(path, "is not an array");
+    Hdf5Handle set(H5Dopen2(file, path.c_str(), properties), H5Dclose);
+    if (set < 0) fail(path, "cannot be opened");
+    return set;
+}
+
+Hdf5File::Hdf5File(const std::string& path, bool follow_links) : data_(std::make_unique<Data>()) {
+    const std::lock_guard lock(hdf5_mutex());
+    H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
+    data_->access.path = path;
+    data_->access.follow_links = follow_links;
+    const Hdf5Handle properties = hdf5_access_properties(data_->access);
+    data_->file = {H5Fopen(path.c_str(), H5F_ACC_RDONLY, properties), H5Fclose};
+    if (data_->file < 0) data_->fail("superblock", "HDF5 cannot open the file");
+    data_->links = {H5Pcreate(H5P_LINK_ACCESS), H5Pclose};
+}
+
+Hdf5File::~Hdf5File() {
+    const std::lock_guard lock(hdf5_mutex());
+    data_.reset();
+}
+
+const std::string& Hdf5File::path() const { return data_->access.path; }
+
+Hdf5File::Kind Hdf5File::kind(const std::string& object, std::optional<Error>* refused) const {
+    const std::lock_guard lock(hdf5_mutex());
+    data_->access.forget();
+    Hdf5Info info{};
+    if (H5Oget_info_by_name2(data_->file, object.c_str(), &info, H5O_INFO_BASIC, data_->links) < 0) {
+        if (refused != nullptr) *refused = data_->access.failure ? data_->access.failure : data_->access.missing;
+        return Kind::none;
+    }
+    return info.type == H5O_TYPE_GROUP ? Kind::group : info.type == H5O_TYPE_DATASET ? Kind::array : Kind::other;
+}
+
+std::string Hdf5File::identity(const std::string& object) const {
+    const std::lock_guard lock(hdf5_mutex());
+    Hdf5Info info{};
+    if (H5Oget_info_by_name2(data_->file, object.c_str(), &info, H5O_INFO_BASIC, data_->links) < 0) return {};
+    return std::to_string(info.fileno) + ":" + std::to_string(info.addr);
+}
+
+std::vector<std::string> Hdf5File::names(const std::string& group) const {
+    const std::lock_guard lock(hdf5_mutex());
+    std::vector<std::string> names;
+    const Hdf5Handle opened(H5Oopen(data_->file, group.c_str(), data_->links), H5Oclose);
+    if (opened < 0 || H5Iget_type(opened) != H5I_GROUP) return names;
+    const auto add = [](hid_t, const char* name, const auto*, void* out) -> herr_t {
+        auto& list = *static_cast<std::vector<std::string>*>(out);
+        if (list.size() >= kMostNames) return 1;
+        try {
+            list.emplace_back(name);
+        } catch (const std::bad_alloc&) {
+            return -1;
+        }
+        return 0;
+    };
+    hsize_t next = 0;
+    if (H5Literate(opened, H5_INDEX_NAME, H5_ITER_NATIVE, &next, add, &names) < 0) data_->fail(group, "the group cannot be listed");
+    std::ranges::sort(names);
+    return names;
+}
+
+Hdf5Array Hdf5File::array(const std::string& path) const {
+    const std::lock_guard lock(hdf5_mutex());
+    const Hdf5Handle set = data_->open_array(path);
+    const Hdf5Handle type(H5Dget_type(set), H5Tclose), space(H5Dget_space(set), H5Sclose), creation(H5Dget_create_plist(set), H5Pclose);
+    if (type < 0 || space < 0 || creation < 0) data_->fail(path, "the array cannot be read");
+    Hdf5Array array{.path = path, .type = hdf5_type_of(type)};
+    std::array<hsize_t, H5S_MAX_RANK> dims{};
+    const int rank = H5Sget_simple_extent_type(space) == H5S_NULL ? -1 : H5Sget_simple_extent_dims(space, dims.data(), nullptr);
+    if (rank < 0) {
+        array.type = {.name = "no numbers"};
+        return array;
+    }
+    for (const hsize_t size : std::span(dims).first(static_cast<std::size_t>(rank))) {
+        if (size > static_cast<hsize_t>(std::numeric_limits<std::int64_t>::max())) data_->fail(path, "a dimension does not fit in 63 bits");
+        array.dims.push_back(static_cast<std::int64_t>(size));
+    }
+    if (H5Pget_layout(creation) == H5D_CHUNKED && H5Pget_chunk(creation, rank, dims.data()) == rank)
+        array.chunk.assign(dims.begin(), dims.begin() + rank);
+    const int filters = H5Pget_nfilters(creation);
+    for (int i = 0; i < filters; ++i) {
+        unsigned flags = 0, config = 0;
+        std::size_t values = 0;
+        std::array<char, 64> name{};
+        const H5Z_filter_t id =
+            H5Pget_filter2(creation, static_cast<unsigned>(i), &flags, &values, nullptr, name.size() - 1, name.data(), &config);
+        std::string text = id == H5Z_FILTER_DEFLATE ? "gzip" : lower(name.data());
+        if (text.empty()) text = "filter " + std::to_string(id);
+        array.encoding += (array.encoding.empty() ? "" : ", ") + text;
+    }
+    if (array.encoding.empty()) array.encoding = "raw";
+    return array;
+}
+
+std::vector<double> Hdf5File::line(const std::string& path) const {
+    const std::lock_guard lock(hdf5_mutex());
+    const Hdf5Handle set = data_->open_array(path);
+    const Hdf5Handle type(H5Dget_type(set), H5Tclose), space(H5Dget_space(set), H5Sclose);
+    const hssize_t count = H5Sget_simple_extent_npoints(space);
+    if (count < 0) data_->fail(path, "the array cannot be read");
+    const bool is_line = H5Sget_simple_extent_ndims(space) <= 2 && hdf5_type_of(type).is_number;
+    if (!is_line || count > kMostNumbers) {
+        throw Error(ErrorKind::unsupported, {.file = data_->access.path,
+                                             .where = shown_name(path),
+                                             .what = is_line ? "has " + std::to_string(count) + " numbers" : "is not a list of numbers",
+                                             .expected = "a list of at most " + std::to_string(kMostNumbers) + " numbers",
+                                             .next = "choose another dataset"});
+    }
+    data_->check_storage(set, path);
+    std::vector<double> values(static_cast<std::size_t>(count));
+    if (count > 0 && H5Dread(set, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()) < 0)
+        data_->fail(path, "the numbers cannot be read");
+    return values;
+}
+
+std::vector<std::vector<std::string>> Hdf5File::references(const std::string& object, const std::string& name) const {
+    const std::lock_guard lock(hdf5_mutex());
+    std::vector<std::vector<std::string>> lists;
+    const OpenAttribute open = open_attribute(*data_, object, name);
+    if (open.count == 0 || H5Tget_class(open.type) != H5T_VLEN) return lists;
+    const Hdf5Handle element(H5Tget_super(open.type), H5Tclose);
+    if (H5Tequal(element, H5T_STD_REF_OBJ) <= 0) return lists;
+    const Hdf5Handle type(H5Tvlen_create(H5T_STD_REF_OBJ), H5Tclose);
+    std::vector<hvl_t> read(static_cast<std::size_t>(open.count));
+    if (H5Aread(open.attribute, type, read.data()) < 0) return lists;
+    for (const hvl_t& list : read) {
+        std::vector<std::string> identities;
+        for (std::size_t i = 0; i < std::min<std::size_t>(list.len, 64); ++i) {
+            const Hdf5Handle target(H5Rdereference2(open.attribute, H5P_DEFAULT, H5R_OBJECT, static_cast<hobj_ref_t*>(list.p) + i),
+                                    H5Oclose);
+            Hdf5Info info{};
+            const bool is_there = target >= 0 && H5Oget_info2(target, &info, H5O_INFO_BASIC) >= 0;
+            identities.push_back(is_there ? std::to_string(info.fileno) + ":" + std::to_string(info.addr) : "");
+        }
+        lists.push_back(std::move(identities));
+    }
+    H5Dvlen_reclaim(type, open.space, H5P_DEFAULT, read.data());
+    return lists;
+}
+
+bool Hdf5File::has_attribute(const std::string& object, const std::string& attribute) const {
+    const std::lock_guard lock(hdf5_mutex());
+    return H5Aexists_by_name(data_->file, object.c_str(), attribute.c_str(), data_->links) > 0;
+}
+
+std::vector<std::string> Hdf5File::texts(const std::string& object, const std::string& attribute) const {
+    const std::lock_guard lock(hdf5_mutex());
+    const OpenAttribute open = open_attribute(*data_, object, attribute);
+    if (open.count == 0 || H5Tget_class(open.type) != H5T_STRING) return {};
+    return H5Tis_variable_str(open.type) > 0 ? texts_of_any_length(open) : texts_of_one_length(open);
+}
+
+std::string Hdf5File::text(const std::string& object, const std::string& attribute) const {
+    std::string whole;
+    for (const std::string& text : texts(object, attribute)) whole += text;
+    return std::string(trim(whole));
+}
+
+std::vector<double> Hdf5File::numbers(const std::string& object, const std::string& attribute) const {
+    const std::lock_guard lock(hdf5_mutex());
+    const OpenAttribute open = open_attribute(*data_, object, attribute);
+    if (open.count == 0 || !hdf5_type_of(open.type).is_number) return {};
+    std::vector<double> values(static_cast<std::size_t>(open.count));
+    if (H5Aread(open.attribute, H5T_NATIVE_DOUBLE, values.data()) < 0) values.clear();
+    return values;
+}
+
+std::string join_path(const std::string& group, const std::string& name) { return group + (group.ends_with('/') ? "" : "/") + name; }
+
+}  // namespace isoatlas

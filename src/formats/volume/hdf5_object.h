@@ -1,0 +1,25 @@
+// Inside of Hdf5File, for those who call HDF5. The caller of every function holds hdf5_mutex().
+#pragma once
+
+#include <string>
+
+#include "formats/volume/hdf5_driver.h"
+#include "formats/volume/hdf5_file.h"
+
+namespace isoatlas {
+
+struct Hdf5File::Data {
+    Hdf5Access access;
+    Hdf5Handle file, links;  ///< links: properties with which they are followed
+
+    /// The error of the last call: that of a file, else what HDF5 says.
+    [[noreturn]] void fail(const std::string& where, const std::string& what);
+    /// Throws Error{input}, also when it is no array.
+    [[nodiscard]] Hdf5Handle open_array(const std::string& path, hid_t properties = H5P_DEFAULT);
+    /// Throws Error: unsupported (a filter that is not there), input (files outside the folder, samples beyond the end of the file).
+    void check_storage(hid_t set, const std::string& path);
+};
+
+[[nodiscard]] Hdf5Type hdf5_type_of(hid_t type);
+
+}  // namespace isoatlas

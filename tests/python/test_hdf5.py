@@ -1,0 +1,165 @@
+"""HDF5 against h5py: what it writes in any type, chunk shape and filter is read; conventions place the samples; what lies is refused."""
+import pathlib
+import subprocess
+
+import numpy as np
+import pytest
+
+import isoatlas
+from conftest import CLI, SOURCE
+
+h5py = pytest.importorskip("h5py")
+TYPES = [order + kind for order in "<>" for kind in ("u1", "i1", "u2", "i2", "u4", "i4", "f2", "f4", "f8")]
+
+
+def read(path, **options):
+    return isoatlas.open(path, **options)
+
+
+def same(array, got):
+    return np.array_equal(np.asarray(got), array.astype("f4" if array.dtype.itemsize == 2 and array.dtype.kind == "f" else array.dtype.newbyteorder("=")))
+
+
+@pytest.mark.parametrize("dtype", TYPES)
+def test_every_type(dtype, tmp_path):
+    array = (np.random.default_rng(1).random((3, 4, 5)) * 100).astype(dtype)
+    with h5py.File(tmp_path / "v.h5", "w") as file:
+        file["deep/down/v"] = array
+    assert same(array, read(tmp_path / "v.h5").volume)
+
+
+@pytest.mark.parametrize("filters", [{}, {"compression": "gzip"}, {"compression": "gzip", "shuffle": True, "fletcher32": True},
+                                     {"compression": "szip"}, {"scaleoffset": 0}, {"fletcher32": True}])
+@pytest.mark.parametrize("chunks", [(1, 1, 1), (7, 6, 5), (3, 5, 2), (1, 9, 8)])
+def test_every_filter_of_hdf5(filters, chunks, tmp_path):
+    if filters.get("compression") == "szip" and not h5py.h5z.filter_avail(h5py.h5z.FILTER_SZIP):
+        pytest.skip("this HDF5 has no szip")
+    array = np.random.default_rng(2).integers(0, 1000, (7, 9, 8)).astype("u2")
+    try:
+        with h5py.File(tmp_path / "v.h5", "w") as file:
+            file.create_dataset("v", data=array, chunks=chunks, **filters)
+    except ValueError as error:
+        pytest.skip(f"h5py does not write it: {error}")
+    atlas = read(tmp_path / "v.h5")
+    assert same(array, atlas.volume)
+
+
+def test_samples_that_were_never_written(tmp_path):
+    with h5py.File(tmp_path / "v.h5", "w") as file:
+        set = file.create_dataset("v", (4, 5, 6), "i4", chunks=(2, 2, 2), fillvalue=7, maxshape=(None, None, None))
+        set[0, 0, 0] = 1
+        expected = set[()]
+    assert np.array_equal(read(tmp_path / "v.h5").volume, expected)
+
+
+def test_booleans_and_one_more_dimension(tmp_path):
+    array = np.random.default_rng(3).random((1, 4, 5, 6, 1)) > 0.5
+    with h5py.File(tmp_path / "v.h5", "w") as file:
+        file["v"] = array
+    assert np.array_equal(read(tmp_path / "v.h5").volume, array[0, ..., 0])
+
+
+def test_a_filter_that_is_missing_is_named(tmp_path, run_cli):
+    with h5py.File(tmp_path / "v.h5", "w") as file:
+        file.create_dataset("v", data=np.arange(64, dtype="u1").reshape(4, 4, 4), chunks=(4, 4, 4), compression="lzf")
+    done = run_cli("info", tmp_path / "v.h5")
+    assert done.returncode == 4 and "32000" in done.stderr and len(done.stderr.splitlines()) < 6
+
+
+@pytest.fixture
+def run_cli():
+    if not CLI:
+        pytest.skip("ISOATLAS_CLI does not name the command line")
+    return lambda *words: subprocess.run([CLI, *map(str, words)], capture_output=True, text=True, timeout=300)
+
+
+def test_virtual_and_external_storage(tmp_path):
+    parts = [np.full((4, 5), value, "u1") for value in (1, 2, 3)]
+    layout = h5py.VirtualLayout((3, 4, 5), "u1")
+    for i, part in enumerate(parts):
+        with h5py.File(tmp_path / f"{i}.h5", "w") as file:
+            file["p"] = part
+        layout[i] = h5py.VirtualSource(f"{i}.h5", "p", shape=(4, 5))
+    with h5py.File(tmp_path / "v.h5", "w") as file:
+        file.create_virtual_dataset("v", layout)
+    assert np.array_equal(read(tmp_path / "v.h5").volume, np.stack(parts))
+    (tmp_path / "1.h5").unlink()
+    with pytest.raises(isoatlas.InputError, match="1.h5"):   # h5py gives zeros
+        read(tmp_path / "v.h5").volume
+    (tmp_path / "raw").write_bytes(bytes(range(60)))
+    with h5py.File(tmp_path / "e.h5", "w") as file:
+        file.create_dataset("v", (3, 4, 5), "u1", external=[("raw", 0, 60)])
+    (tmp_path / "raw").write_bytes(bytes(range(60)))
+    assert np.array_equal(np.asarray(read(tmp_path / "e.h5").volume).ravel(), np.arange(60))
+    (tmp_path / "raw").write_bytes(bytes(range(59)))
+    with pytest.raises(isoatlas.InputError, match="raw"):
+        read(tmp_path / "e.h5").volume
+
+
+def test_files_outside_the_folder_are_not_read(tmp_path):
+    (tmp_path / "in").mkdir()
+    with h5py.File(tmp_path / "secret.h5", "w") as file:
+        file["p"] = np.ones((4, 5), "u1")
+    (tmp_path / "raw").write_bytes(bytes(60))
+    layout = h5py.VirtualLayout((2, 4, 5), "u1")
+    for i in range(2):
+        layout[i] = h5py.VirtualSource("../secret.h5", "p", shape=(4, 5))
+    with h5py.File(tmp_path / "in" / "virtual.h5", "w") as file:
+        file.create_virtual_dataset("v", layout)
+    with h5py.File(tmp_path / "in" / "external.h5", "w") as file:
+        file.create_dataset("v", (3, 4, 5), "u1", external=[("../raw", 0, 60)])
+    with h5py.File(tmp_path / "in" / "absolute.h5", "w") as file:
+        file.create_dataset("v", (3, 4, 5), "u1", external=[(str(tmp_path / "raw"), 0, 60)])
+    for name in ("virtual", "external", "absolute"):
+        with pytest.raises(isoatlas.InputError, match="outside its folder"):
+            read(tmp_path / "in" / f"{name}.h5").volume
+
+
+def test_user_block_as_matlab_writes_it(tmp_path):
+    array = np.random.default_rng(4).random((3, 4, 5))
+    for block in (512, 8192):
+        with h5py.File(tmp_path / "v.mat", "w", userblock_size=block) as file:
+            file["v"] = array
+            file["v"].attrs["MATLAB_class"] = np.bytes_("double")
+        assert np.array_equal(read(tmp_path / "v.mat").volume, array)
+
+
+@pytest.mark.parametrize("shape, chunks", [((1 << 20, 1 << 20, 1 << 20), (32, 32, 32)), ((1 << 40, 1 << 20), (64, 64))])
+def test_petabytes_that_are_not_there(shape, chunks, tmp_path, run_cli):
+    with h5py.File(tmp_path / "v.h5", "w") as file:
+        file.create_dataset("v", shape, "u1", chunks=chunks, compression="gzip")
+    done = run_cli("objects", tmp_path / "v.h5")
+    assert done.returncode in (2, 3, 4, 5) and done.stderr and "HDF5-DIAG" not in done.stderr
+    assert (tmp_path / "v.h5").stat().st_size < 1 << 20
+
+
+def test_damage_has_one_message(tmp_path, run_cli):
+    """HDF5 itself may fall over damaged structures: whatever happens, nothing but one message comes, and no crash."""
+    rng = np.random.default_rng(5)
+    with h5py.File(tmp_path / "v.h5", "w") as file:
+        file.create_dataset("g/v", data=rng.integers(0, 255, (8, 9, 10)).astype("u1"), chunks=(4, 5, 6), compression="gzip", fletcher32=True)
+        file["g/v"].attrs["units"] = "K"
+    content = (tmp_path / "v.h5").read_bytes()
+    crashes = []
+    for i in range(60):
+        damaged = bytearray(content)
+        if i % 3 == 0:
+            damaged = damaged[:rng.integers(8, len(content))]
+        else:
+            for at in rng.integers(8, len(content), 3):
+                damaged[at] = rng.integers(0, 256)
+        (tmp_path / "d.h5").write_bytes(damaged)
+        done = run_cli("info", tmp_path / "d.h5")
+        if done.returncode not in (0, 2, 3, 4, 5):
+            crashes.append((i, done.returncode, done.stderr[-200:]))
+        assert "HDF5-DIAG" not in done.stderr
+    assert not crashes
+
+
+def test_shared_files_say_what_they_are():
+    shared = SOURCE.parent / "shared" / "data" / "formats"
+    if not shared.exists():
+        pytest.skip("no shared data beside the checkout")
+    for name in ("can_0.hdf", "can-vtu.hdf"):
+        with pytest.raises(isoatlas.UnsupportedError, match="VTKHDF"):
+            read(shared / name).volume
