@@ -24,7 +24,7 @@ std::vector<std::int64_t> viewer_numbers(const Hdf5File& file, const std::string
     return numbers;
 }
 
-std::string padded(const char* prefix, std::int64_t number, std::size_t digits) {
+std::string numbered(const char* prefix, std::int64_t number, std::size_t digits) {
     const std::string text = std::to_string(number);
     return prefix + std::string(digits > text.size() ? digits - text.size() : 0, '0') + text;
 }
@@ -69,7 +69,7 @@ std::unique_ptr<VolumeReader> open_big_data_viewer(const Hdf5Request& request) {
     const Hdf5File& file = *request.file;
     if (request.options.dataset || request.file->kind("/t00000") != Hdf5File::Kind::group) return nullptr;
     const std::vector<std::int64_t> steps = viewer_numbers(file, "/", "t"), setups = viewer_numbers(file, "/", "s");
-    if (setups.empty() || file.kind("/" + padded("s", setups[0], 2) + "/resolutions") != Hdf5File::Kind::array) return nullptr;
+    if (setups.empty() || file.kind("/" + numbered("s", setups[0], 2) + "/resolutions") != Hdf5File::Kind::array) return nullptr;
     VolumeInfo info = request.info("BigDataViewer");
     FileVolumes& volumes = info.volumes;
     std::map<std::int64_t, ViewerSetup> told = viewer_setups(request.path(), info);
@@ -79,8 +79,8 @@ std::unique_ptr<VolumeReader> open_big_data_viewer(const Hdf5Request& request) {
     volumes.time_steps = static_cast<std::int64_t>(steps.size());
     volumes.time_step = choose_time_step(request.path(), request.options, volumes.time_steps).index;
     const std::int64_t setup = setups[static_cast<std::size_t>(volumes.channel)];
-    const std::string name = padded("s", setup, 2),
-                      group = "/" + padded("t", steps[static_cast<std::size_t>(volumes.time_step)], 5) + "/" + name;
+    const std::string name = numbered("s", setup, 2),
+                      group = "/" + numbered("t", steps[static_cast<std::size_t>(volumes.time_step)], 5) + "/" + name;
     const std::vector<double> factors = file.line("/" + name + "/resolutions");
     const auto cells = [&](std::size_t level) { return group + "/" + std::to_string(level) + "/cells"; };
     std::size_t levels = 0;

@@ -46,7 +46,7 @@ Index3 samples_of(const VtkImage& image, bool cells) {
 }
 
 /// Whether the last dimensions of an array are those of the image; one more in front is time.
-bool fits(const Hdf5Array& array, const VtkImage& image, bool cells) {
+bool fits_image(const Hdf5Array& array, const VtkImage& image, bool cells) {
     const Index3 size = samples_of(image, cells);
     const std::size_t dims = array.dims.size(), space = size[2] == 1 && dims == (image.has_steps ? 3 : 2) ? 2 : 3;
     if (!array.type.is_number || (dims != space && !(image.has_steps && dims == space + 1))) return false;
@@ -69,7 +69,7 @@ VtkChoices vtk_choices(const Hdf5File& file, const VtkImage& image) {
             const std::string path = join_path(group, name);
             if (file.kind(path) != Hdf5File::Kind::array) continue;
             const Hdf5Array array = file.array(path);
-            if (fits(array, image, cells))
+            if (fits_image(array, image, cells))
                 found.choices.push_back({path, shape_of(array) + (cells ? ", of the cells" : "")});
             else
                 found.others += (found.others.empty() ? "" : ", ") + in_quotes(name);

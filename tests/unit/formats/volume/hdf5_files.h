@@ -13,15 +13,17 @@
 
 namespace isoatlas::test {
 
+struct Hdf5Storage {
+    std::vector<hsize_t> chunk{};
+    int gzip = -1;
+    bool shuffle = false, fletcher = false, szip = false;
+    std::vector<hsize_t> most{};  ///< sizes up to which it may grow
+};
+
 /// Objects are closed with the file, when this goes.
 class Hdf5Maker {
 public:
-    struct Storage {
-        std::vector<hsize_t> chunk{};
-        int gzip = -1;
-        bool shuffle = false, fletcher = false, szip = false;
-        std::vector<hsize_t> most{};  ///< sizes up to which it may grow
-    };
+    using Storage = Hdf5Storage;
 
     explicit Hdf5Maker(const std::string& path, hsize_t user_block = 0) {
         const hid_t access = H5Pcreate(H5P_FILE_ACCESS), creation = H5Pcreate(H5P_FILE_CREATE);
@@ -63,7 +65,7 @@ public:
         if (dims.empty()) dims = {values.size()};
         array(path, dims, H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, values.data());
     }
-    void set(const std::string& object, const std::string& name, const std::vector<double>& values) const {
+    void set_numbers(const std::string& object, const std::string& name, const std::vector<double>& values) const {
         const hsize_t count = values.size();
         attribute(object, name, H5T_IEEE_F64LE, made(H5Screate_simple(1, &count, nullptr)), values.data());
     }

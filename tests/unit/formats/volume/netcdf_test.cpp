@@ -262,7 +262,7 @@ TEST(Netcdf, Netcdf4IsHdf5WithScales) {
         maker.set("/", "_NCProperties", "version=2");
         const auto scale = [&](const std::string& path, std::vector<double> places, const std::string& name, double number) {
             maker.doubles(path, places);
-            maker.set(path, "CLASS", "DIMENSION_SCALE"), maker.set(path, "NAME", name), maker.set(path, "_Netcdf4Dimid", {number});
+            maker.set(path, "CLASS", "DIMENSION_SCALE"), maker.set(path, "NAME", name), maker.set_numbers(path, "_Netcdf4Dimid", {number});
         };
         scale("/depth", {3, 2, 1}, "depth", 0);
         scale("/across", {0, 0}, "This is a netCDF dimension but not a netCDF variable         2", 1);
