@@ -19,6 +19,8 @@ demo|zlib1g-dev|compressed NRRD, NIfTI, MetaImage and VTK files
 demo|libtiff-dev|TIFF stacks
 demo|libpugixml-dev|VTK XML files
 demo|libhdf5-dev|stores, VTKHDF files, HDF5 and NetCDF volumes
+demo|libblosc-dev|compressed chunks of Zarr arrays
+demo|liblz4-dev|the same
 demo|libcurl4-openssl-dev|files on web servers
 demo|libxxhash-dev|checksums of stores
 demo|libdeflate-dev|compressed trees in stores, PNG files
@@ -27,7 +29,7 @@ demo|libembree-dev|ray tracing of pictures
 demo|libwebp-dev|WebP pictures
 demo|libboost-dev|the server of the viewer, integers of any size (headers only)
 demo|libmeshoptimizer-dev|meshes in few bytes for the viewer
-demo|libzstd-dev|the same
+demo|libzstd-dev|the same, chunks of Zarr arrays
 demo|nodejs|bundles the page
 demo|npm|bundles the page
 demo|libcli11-dev|command line
@@ -56,6 +58,7 @@ test|python3-ipykernel|the same
 test|python3-venv|a virtual environment for its wheel
 test|python3-nibabel|independent reader of the NIfTI files we write
 test|python3-mrcfile|independent reader and writer of MRC maps
+test|python3-zarr|independent reader and writer of Zarr arrays
 test|python3-tifffile|independent reader of the TIFF files we write
 test|chromium|opens the page
 test|python3-pil|independent reader of the pictures we write

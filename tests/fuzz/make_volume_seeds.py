@@ -1,8 +1,11 @@
 #!/usr/bin/env python3
-"""Writes the seeds of the NRRD, MetaImage, NumPy, MRC, legacy VTK and RAW targets into tests/fuzz/corpus (the files are committed; this says how they were made)."""
+"""Writes the seeds of the NRRD, MetaImage, NumPy, MRC, legacy VTK, Zarr and RAW targets into tests/fuzz/corpus (the files are committed; this says how they were made)."""
 import gzip
+import io
+import json
 import pathlib
 import struct
+import zipfile
 import zlib
 
 CORPUS = pathlib.Path(__file__).parent / "corpus"
@@ -25,7 +28,70 @@ def mrc(mode, size=(2, 3, 4), axes=(1, 2, 3), angles=(90, 90, 90), order="<", sp
     return header + struct.pack(order + "fi", -1, 1) + b"seed".ljust(80) + bytes(720) + bytes(extended)
 
 
+def crc32c(data):
+    remainder = 0xffffffff
+    for byte in data:
+        remainder ^= byte
+        for _ in range(8):
+            remainder = remainder >> 1 ^ (0x82f63b78 if remainder & 1 else 0)
+    return remainder ^ 0xffffffff
+
+
+def keys(values):
+    """A hierarchy as the Zarr target reads it: "key length", then the value."""
+    return b"".join(f"{key} {len(value)}\n".encode() + value for key, value in values.items())
+
+
+def document(**members):
+    return json.dumps(members).encode()
+
+
+def zarr_2(**more):
+    return document(**{"zarr_format": 2, "shape": [4, 3, 2], "chunks": [4, 3, 2], "dtype": "<u2", "order": "C", "filters": None, "compressor": None, "fill_value": 1, **more})
+
+
+def zarr_3(codecs, chunk=(4, 3, 2), **more):
+    grid = {"name": "regular", "configuration": {"chunk_shape": chunk}}
+    return document(**{"zarr_format": 3, "node_type": "array", "shape": [4, 3, 2], "data_type": "uint16", "chunk_grid": grid,
+                       "chunk_key_encoding": {"name": "default"}, "fill_value": 0, "codecs": codecs, **more})
+
+
+def zarr_seeds():
+    image = {"axes": ["z", "y", "x"], "datasets": [{"path": "0", "coordinateTransformations": [{"type": "scale", "scale": [1, 2, 3]}]}, {"path": "1"}]}
+    group, attributes = document(zarr_format=2), document(multiscales=[image], omero={"channels": [{"label": "a"}]})
+    write("zarr", "raw", keys({".zarray": zarr_2(), "0.0.0": SAMPLES}))
+    write("zarr", "turned", keys({".zarray": zarr_2(dtype=">f2", order="F", chunks=[3, 2, 2], dimension_separator="/", fill_value="NaN"), "0/0/0": SAMPLES[:24], "1/1/0": SAMPLES[24:]}))
+    packed = [("zlib", zlib.compress(SAMPLES)), ("gzip", gzip.compress(SAMPLES, mtime=0)), ("lz4", struct.pack("<I", 48) + b"\xf0\x21" + SAMPLES),
+              ("zstd", bytes.fromhex("28b52ffd2030810100") + SAMPLES), ("blosc", struct.pack("<4B3I", 2, 1, 0x02, 2, 48, 48, 64) + SAMPLES)]
+    for name, value in packed:
+        write("zarr", name, keys({".zarray": zarr_2(compressor={"id": name}), "0.0.0": value}))
+    filters = [{"id": "delta", "dtype": "<u2"}, {"id": "fixedscaleoffset", "dtype": "<u2", "astype": "<u2", "scale": 2, "offset": 1}, {"id": "shuffle", "elementsize": 2}]
+    write("zarr", "filters", keys({".zarray": zarr_2(filters=filters), "0.0.0": SAMPLES}))
+    write("zarr", "image", keys({".zgroup": group, ".zattrs": attributes, "0/.zarray": zarr_2(), "0/0.0.0": SAMPLES, "1/.zarray": zarr_2(shape=[2, 2, 1])}))
+    plate = {"plate": {"wells": [{"path": "A/1"}]}}
+    write("zarr", "plate", keys({".zattrs": document(**plate), "A/1/.zattrs": document(well={"images": [{"path": "0"}]}), "A/1/0/.zattrs": attributes, "A/1/0/0/.zarray": zarr_2(), "A/1/0/0/0.0.0": SAMPLES}))
+    write("zarr", "group", keys({".zgroup": group, "a/b/.zarray": zarr_2(), "a/.zgroup": group, "a/b/0.0.0": SAMPLES, "cannot list": b"", ".zmetadata": document(metadata={"a/.zgroup": {}})}))
+    little = {"name": "bytes", "configuration": {"endian": "little"}}
+    write("zarr", "three", keys({"zarr.json": zarr_3([{"name": "transpose", "configuration": {"order": [2, 0, 1]}}, little, {"name": "crc32c"}], dimension_names=["z", "y", "x"]),
+                                 "c/0/0/0": SAMPLES + struct.pack("<I", crc32c(SAMPLES))}))
+    places = struct.pack("<4Q", 0, 24, 24, 24)
+    shards = {"name": "sharding_indexed", "configuration": {"chunk_shape": [2, 3, 2], "codecs": [little], "index_codecs": [little, {"name": "crc32c"}]}}
+    write("zarr", "shards", keys({"zarr.json": zarr_3([shards]), "c/0/0/0": SAMPLES + places + struct.pack("<I", crc32c(places))}))
+    shards["configuration"].update(index_location="start", index_codecs=[little])
+    write("zarr", "start", keys({"zarr.json": zarr_3([shards]), "c/0/0/0": struct.pack("<4Q", 2**64 - 1, 2**64 - 1, 32, 24) + SAMPLES[:24]}))
+    five = [{"name": name, "type": kind, "unit": unit} for name, kind, unit in (("t", "time", "second"), ("c", "channel", ""), ("y", "space", "micrometer"), ("x", "space", "nanometer"))]
+    ome = {"version": "0.5", "multiscales": [{"axes": five, "datasets": [{"path": "s", "coordinateTransformations": [{"type": "translation", "translation": [1, 2, 3, -4]}]}]}]}
+    write("zarr", "ome", keys({"zarr.json": document(zarr_format=3, node_type="group", attributes={"ome": ome}), "s/zarr.json": zarr_3([little], [1, 2, 3, 2], shape=[2, 2, 3, 2]), "s/c/1/0/0/0": SAMPLES[:24]}))
+    for name, method in (("stored", zipfile.ZIP_STORED), ("deflated", zipfile.ZIP_DEFLATED)):
+        archive = io.BytesIO()
+        with zipfile.ZipFile(archive, "w", method) as file:
+            for key, value in ((".zarray", zarr_2()), ("0.0.0", SAMPLES)):
+                file.writestr(zipfile.ZipInfo(key), value, method)
+        write("zarr", name, archive.getvalue())
+
+
 def main():
+    zarr_seeds()
     oriented = (
         "type: short\ndimension: 3\nspace: left-posterior-superior\nsizes: 2 3 4\nspace directions: (1,0,0) (0,1,0) (0,0,2)\n"
         'space units: "mm" "mm" "mm"\nspace origin: (1,2,3)\nkinds: domain domain domain\nendian: little\n'

@@ -14,7 +14,7 @@ from pathlib import Path
 # library -> the libraries it needs, and its rooms (folders of src) in the order in which data flows through them
 LIBRARIES = {
     "core": ([], ["base", "field", "critical", "tree", "zones", "analysis", "features", "persistence", "levelset", "mesh"]),
-    "formats": (["core"], ["formats/common", "formats/volume", "formats/mesh", "formats/tree"]),
+    "formats": (["core"], ["formats/common", "formats/zarr", "formats/volume", "formats/mesh", "formats/tree"]),
     "remote": (["formats"], ["remote"]),
     "store": (["formats"], ["codec", "store", "bricks", "census", "atlas"]),
     "measures": (["store"], ["measures"]),
@@ -73,7 +73,8 @@ DOORS = {
     r"CLI/.*|fmt/.*": r"apps/.*",
     r"nlohmann/.*": r"apps/.*|tests/.*|bench/.*|src/formats/.*|src/store/contents\.cpp|src/server/(?:client|scene_file)\.cpp",
     r"libdeflate\.h": r"src/codec/chunk_codec\.cpp|src/image/png\.cpp|src/server/coding\.cpp",
-    r"zstd\.h": r"src/server/coding\.cpp",
+    r"zstd\.h": r"src/server/coding\.cpp|src/formats/zarr/codecs\.cpp|tests/.*",
+    r"blosc\.h|lz4\.h": r"src/formats/zarr/codecs\.cpp|tests/.*",
     r"boost/(asio|beast)/.*": r"src/server/(network|request_head|response_reader)\.cpp|tests/.*",
     r"meshoptimizer\.h": r"src/preview/(wire_mesh|coarse_surface)\.cpp|tests/.*",
     r"webp/.*": r"src/image/webp\.cpp",

@@ -37,8 +37,8 @@ void require_own_folder(const std::string& header, const std::string& file) {
     if (!is_below(folder_of(file_system().resolved(header)), real)) refuse(header, "the header refers to a file", file);
 }
 
-void require_inside(const std::string& folder, const std::string& file) {
-    if (!is_below(file_system().resolved(folder), file_system().resolved(file))) refuse(folder, "a slice is a link to a file", file);
+void require_inside(const std::string& folder, const std::string& file, const std::string& what) {
+    if (!is_below(file_system().resolved(folder), file_system().resolved(file))) refuse(folder, what, file);
 }
 
 }  // namespace isoatlas

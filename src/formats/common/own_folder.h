@@ -9,7 +9,7 @@ namespace isoatlas {
 /// that the path of the header names, and the one where the header lies when that path is a link. Opens nothing, and the message does not
 /// reveal whether the file exists.
 void require_own_folder(const std::string& header, const std::string& file);
-/// The same for a file that was found in a folder of slices.
-void require_inside(const std::string& folder, const std::string& file);
+/// The same for a file that was found in a folder, of slices unless `what` says something else.
+void require_inside(const std::string& folder, const std::string& file, const std::string& what = "a slice is a link to a file");
 
 }  // namespace isoatlas

@@ -22,7 +22,6 @@ struct Listing {
     std::vector<std::string> slices;  ///< TIFF files in natural order
     std::string dicom, other_image;   ///< the first of these
     std::int64_t others = 0;          ///< files that are not TIFF
-    bool is_zarr = false;             ///< it has metadata of Zarr, version 2 or 3
 };
 
 bool has_extension(const std::string& name, std::initializer_list<const char*> extensions) {
@@ -44,7 +43,6 @@ Listing list_folder(const std::string& path) {
     std::error_code error;
     for (fs::directory_iterator entry(path, error), end; !error && entry != end; entry.increment(error)) {
         const std::string name = entry->path().filename().string();
-        listing.is_zarr = listing.is_zarr || name == ".zarray" || name == ".zgroup" || name == "zarr.json";
         if (name.starts_with('.')) continue;
         std::error_code ignored;
         if (!entry->is_regular_file(ignored)) {
@@ -67,14 +65,6 @@ Listing list_folder(const std::string& path) {
 }
 
 [[noreturn]] void no_slices(const std::string& path, const Listing& listing) {
-    if (listing.is_zarr) {
-        throw Error(
-            ErrorKind::unsupported,
-            {.file = path,
-             .what = "is a Zarr array or group",
-             .expected = "a folder of TIFF files, or a volume file",
-             .next = "write an array of it as .npy or .tif, e.g. in Python with numpy.save(\"volume.npy\", zarr.open(FOLDER)[...])"});
-    }
     if (!listing.dicom.empty()) {
         throw Error(ErrorKind::unsupported, {.file = path,
                                              .where = listing.dicom,

@@ -47,7 +47,14 @@ using FirstBytes = std::span<const std::byte>;
 [[nodiscard]] bool looks_like_netcdf(FirstBytes first, const std::string& path);
 [[nodiscard]] std::unique_ptr<VolumeReader> open_netcdf(const std::string& path, const OpenOptions& options);
 
-/// A directory of slices, one image file each. Without looks_like: every directory is read as one.
+/// A zip archive: of a Zarr hierarchy, or it is Error{unsupported}.
+[[nodiscard]] bool looks_like_zip(FirstBytes first, const std::string& path);
+[[nodiscard]] std::unique_ptr<VolumeReader> open_zarr_zip(const std::string& path, const OpenOptions& options);
+/// A directory with the metadata of a Zarr array or group. Its array or image is that of the hierarchy that it is a part of.
+[[nodiscard]] bool is_zarr_folder(const std::string& path);
+[[nodiscard]] std::unique_ptr<VolumeReader> open_zarr_folder(const std::string& path, const OpenOptions& options);
+
+/// A directory of slices, one image file each, unless is_zarr_folder(). Without looks_like: every other directory is read as one.
 [[nodiscard]] std::unique_ptr<VolumeReader> open_folder(const std::string& path, const OpenOptions& options);
 
 /// Any file: described by options, a sidecar or its name.

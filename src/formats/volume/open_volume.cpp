@@ -21,7 +21,7 @@ namespace {
 constexpr std::int64_t kFirstBytes = 4096;
 constexpr const char* kSupported =
     "NRRD (.nrrd .nhdr), MetaImage (.mha .mhd), NIfTI-1 (.nii .nii.gz), NumPy (.npy), VTK image (.vti .vtk), TIFF (.tif), MRC (.mrc .map), "
-    "HDF5 (.h5 .ims .vtkhdf), NetCDF (.nc), a folder of slices, RAW";
+    "HDF5 (.h5 .ims .vtkhdf), NetCDF (.nc), OME-Zarr and Zarr (a folder, or .zip), a folder of slices, RAW";
 
 struct ReadFormat {
     const char* name;
@@ -30,27 +30,27 @@ struct ReadFormat {
     std::unique_ptr<VolumeReader> (*open)(const std::string&, const OpenOptions&);
 };
 
-constexpr std::array<ReadFormat, 10> kReadFormats = {{{"NRRD", ".nrrd .nhdr", looks_like_nrrd, open_nrrd},
+constexpr std::array<ReadFormat, 11> kReadFormats = {{{"NRRD", ".nrrd .nhdr", looks_like_nrrd, open_nrrd},
                                                       {"NIfTI", ".nii .nii.gz", looks_like_nifti, open_nifti},
                                                       {"NumPy", ".npy", looks_like_npy, open_npy},
                                                       {"VTK image", ".vti", looks_like_vti, open_vti},
                                                       {"VTK legacy", ".vtk", looks_like_vtk_legacy, open_vtk_legacy},
                                                       {"TIFF", ".tif .tiff", looks_like_tiff, open_tiff},
                                                       {"MRC", ".mrc .map .ccp4 .rec .st .ali .mrcs", looks_like_mrc, open_mrc},
+                                                      {"Zarr", ".zip .ozx", looks_like_zip, open_zarr_zip},
                                                       {"MetaImage", ".mha .mhd", looks_like_metaimage, open_metaimage},
                                                       {"NetCDF", ".nc .nc4 .netcdf", looks_like_netcdf, open_netcdf},
                                                       {"HDF5", ".h5 .hdf5 .he5 .ims .nxs .nx5 .vtkhdf .jld2", looks_like_hdf5, open_hdf5}}};
 
 /// Common formats that isoatlas does not read, and how to convert them.
-constexpr std::array<std::pair<std::string_view, const char*>, 8> kForeign = {
+constexpr std::array<std::pair<std::string_view, const char*>, 7> kForeign = {
     {{".dcm", "convert the DICOM series to NIfTI, for example with dcm2niix"},
      {".hdr", "give the .nii or .mhd file of the pair; of an ANALYZE pair the .img file must be beside it"},
      {".img", "open it as RAW with the sizes and the type of its samples, or convert the pair to NIfTI"},
      {".mat", "save it with -v7.3, or export the array to .npy (scipy.io.loadmat and numpy.save)"},
      {".fits", "export the cube to .npy (astropy.io.fits and numpy.save)"},
      {".png", "give the folder that holds the slices, or convert the image to TIFF"},
-     {".npz", "save the array by itself: numpy.save"},
-     {".zip", "unpack the archive and give the file inside"}}};
+     {".npz", "save the array by itself: numpy.save"}}};
 
 bool has_extension(const std::string& path, const ReadFormat& format) {
     const std::vector<std::string_view> extensions = split_words(format.extensions);
@@ -219,7 +219,9 @@ std::unique_ptr<VolumeReader> open_volume(const std::string& given, const OpenOp
     const auto [path, options] = without_dataset(given, given_options);
     const bool folder = is_directory(path);
     if (!folder && !is_address(path) && !anything_at(path)) missing_file(path);
-    std::unique_ptr<VolumeReader> reader = folder ? open_folder(path, options) : open_file_volume(path, options);
+    std::unique_ptr<VolumeReader> reader = !folder                ? open_file_volume(path, options)
+                                           : is_zarr_folder(path) ? open_zarr_folder(path, options)
+                                                                  : open_folder(path, options);
     check_choices(reader->info(), options);
     reader->info_.path = given;
     check_agreement(reader->info(), options);
