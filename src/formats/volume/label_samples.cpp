@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "formats/common/text.h"
+#include "formats/volume/write_zarr.h"
 
 namespace isoatlas {
 
@@ -24,7 +25,7 @@ SampleFeed narrowed(std::span<const std::uint32_t> labels) {
     };
 }
 
-constexpr const char* kEnds[] = {".nrrd", ".nii", ".nii.gz", ".tif", ".tiff"};
+constexpr const char* kEnds[] = {".nrrd", ".nii", ".nii.gz", ".tif", ".tiff", ".zarr"};
 
 }  // namespace
 
@@ -49,11 +50,12 @@ void check_labels(const std::string& path, const VolumeInfo& info, std::span<con
     if (std::ranges::any_of(kEnds, [&](const char* end) { return ends_with_ignoring_case(path, end); })) return;
     throw Error(ErrorKind::usage, {.file = path,
                                    .what = "the name does not say in which format to write labels",
-                                   .expected = "a name that ends in .nrrd, .nii, .nii.gz or .tif",
+                                   .expected = "a name that ends in .nrrd, .nii, .nii.gz, .tif or .zarr",
                                    .next = "change the extension of the output file"});
 }
 
 void write_label_file(Sink& sink, const VolumeInfo& header, const SampleFeed& feed, const KeyValues& pairs) {
+    if (is_zarr_name(sink.name())) refuse_zarr_sink(sink.name());
     const auto ends = [&](const char* end) { return ends_with_ignoring_case(sink.name(), end); };
     if (ends(".nrrd")) return write_nrrd(sink, header, feed, Packing::gzip, pairs);
     if (ends(".nii")) return write_nifti(sink, header, feed, Packing::raw);

@@ -5,6 +5,7 @@
 #include "base/atomic_file.h"
 #include "formats/common/connectivity.h"
 #include "formats/volume/label_samples.h"
+#include "formats/volume/write_zarr.h"
 #include "isoatlas/output.h"
 
 namespace isoatlas {
@@ -43,6 +44,12 @@ void write(Sink& sink, const VolumeInfo& info, std::span<const std::uint32_t> la
 
 void write(const std::string& path, const VolumeInfo& info, std::span<const std::uint32_t> labels, const Meaning& meaning) {
     check_labels(path, info, labels);
+    if (is_zarr_name(path)) {
+        VolumeInfo header;
+        header.extent = info.extent, header.geometry = info.geometry;
+        static_cast<void>(write_zarr_labels(path, "labels", labels, {}, header));
+        return;
+    }
     AtomicFile file(path);
     write(file, info, labels, meaning);
     file.commit();

@@ -12,6 +12,7 @@
 #include "formats/common/text.h"
 #include "formats/volume/label_samples.h"
 #include "formats/volume/segmentation_table.h"
+#include "formats/volume/write_zarr.h"
 #include "isoatlas/polarity.h"
 #include "isoatlas/segmentation.h"
 
@@ -200,6 +201,10 @@ std::vector<std::string> write_segmentation(Sink& sink, std::span<const std::uin
 std::vector<std::string> write_segmentation(const std::string& path, std::span<const std::uint32_t> labels,
                                             std::span<const Segment> segments, const VolumeInfo& info) {
     check_labels(path, info, labels);
+    if (is_zarr_name(path)) {
+        static_cast<void>(boxes_of(path, labels, segments, info.extent));
+        return write_zarr_labels(path, "objects", labels, segments, info);
+    }
     std::optional<AtomicFile> table;
     if (!is_slicers(path)) check_table(segment_table_path(path));
     AtomicFile file(path);
