@@ -56,7 +56,7 @@ struct ReadingDriver {
             }
             return reinterpret_cast<H5FD_t*>(opened.release());
         } catch (const Error& error) {
-            if (!access.failure) access.failure = error;
+            if (!access.failure && !access.missing) access.failure = error;  // HDF5 looks in other folders for what it misses
         } catch (const std::bad_alloc&) {
         }
         return nullptr;
@@ -99,7 +99,7 @@ struct ReadingDriver {
             H5FD_class_t f{};
             f.name = "isoatlas reading";
             f.maxaddr = HADDR_MAX;
-            f.fc_degree = H5F_CLOSE_STRONG;
+            f.fc_degree = H5F_CLOSE_WEAK;  // that of files which links lead to, one of which may be this
             f.fapl_size = sizeof(Hdf5Access*);
             f.fapl_get = get_info;
             f.fapl_copy = copy_info;

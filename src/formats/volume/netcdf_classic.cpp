@@ -280,7 +280,7 @@ private:
 
 std::vector<double> ClassicFile::line(const NetcdfVariable& variable) const {
     const Hdf5Array shape = array(variable);
-    if (shape.dims.size() != 1 || !shape.type.is_number || shape.dims[0] > Hdf5File::kMostNumbers) {
+    if (shape.dims.size() != 1 || !shape.type.is_number || (shape.dims[0] > Hdf5File::kMostNumbers && shape.dims[0] <= size_)) {
         throw Error(ErrorKind::unsupported, {.file = path,
                                              .where = shown_name(variable.path),
                                              .what = "is not a list of at most " + std::to_string(Hdf5File::kMostNumbers) + " numbers",
