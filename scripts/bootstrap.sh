@@ -19,6 +19,7 @@ demo|zlib1g-dev|compressed NRRD, NIfTI, MetaImage and VTK files
 demo|libtiff-dev|TIFF stacks
 demo|libpugixml-dev|VTK XML files
 demo|libhdf5-dev|stores, VTKHDF files, HDF5 and NetCDF volumes
+demo|libgdcm-dev|compressed DICOM files
 demo|libblosc-dev|compressed chunks of Zarr arrays
 demo|liblz4-dev|the same
 demo|libcurl4-openssl-dev|files on web servers
@@ -59,6 +60,7 @@ test|python3-venv|a virtual environment for its wheel
 test|python3-nibabel|independent reader of the NIfTI files we write
 test|python3-mrcfile|independent reader and writer of MRC maps
 test|python3-zarr|independent reader and writer of Zarr arrays
+test|python3-pydicom|independent reader and writer of DICOM files
 test|python3-tifffile|independent reader of the TIFF files we write
 test|chromium|opens the page
 test|python3-pil|independent reader of the pictures we write

@@ -20,22 +20,12 @@ namespace fs = std::filesystem;
 
 struct Listing {
     std::vector<std::string> slices;  ///< TIFF files in natural order
-    std::string dicom, other_image;   ///< the first of these
+    std::string other_image;          ///< the first one
     std::int64_t others = 0;          ///< files that are not TIFF
 };
 
 bool has_extension(const std::string& name, std::initializer_list<const char*> extensions) {
     return std::any_of(extensions.begin(), extensions.end(), [&](const char* end) { return ends_with_ignoring_case(name, end); });
-}
-
-/// DICOM files often have no extension: "DICM" stands at byte 128.
-bool is_dicom(const fs::path& file) {
-    if (has_extension(file.string(), {".dcm", ".ima"})) return true;
-    if (file.has_extension()) return false;
-    const std::vector<std::byte> first = read_header_bytes(file.string(), 132);
-    static constexpr char kMagic[] = {'D', 'I', 'C', 'M'};
-    return first.size() == 132 &&
-           std::equal(first.begin() + 128, first.end(), std::begin(kMagic), [](std::byte a, char b) { return static_cast<char>(a) == b; });
 }
 
 Listing list_folder(const std::string& path) {
@@ -52,7 +42,6 @@ Listing list_folder(const std::string& path) {
         } else {
             ++listing.others;
             if (has_extension(name, {".png", ".jpg", ".jpeg", ".bmp"}) && listing.other_image.empty()) listing.other_image = name;
-            if (listing.dicom.empty() && is_dicom(entry->path())) listing.dicom = name;
         }
     }
     if (error) {
@@ -65,13 +54,6 @@ Listing list_folder(const std::string& path) {
 }
 
 [[noreturn]] void no_slices(const std::string& path, const Listing& listing) {
-    if (!listing.dicom.empty()) {
-        throw Error(ErrorKind::unsupported, {.file = path,
-                                             .where = listing.dicom,
-                                             .what = "is a folder of DICOM files",
-                                             .expected = "a folder of TIFF files, or a volume file",
-                                             .next = "convert the series, e.g. with `dcm2niix -z y -o . FOLDER`, and open the .nii.gz"});
-    }
     if (!listing.other_image.empty()) {
         throw Error(ErrorKind::unsupported, {.file = path,
                                              .where = listing.other_image,
@@ -81,7 +63,7 @@ Listing list_folder(const std::string& path) {
     }
     throw Error(ErrorKind::input, {.file = path,
                                    .what = "the folder has no slices",
-                                   .expected = "files named *.tif or *.tiff",
+                                   .expected = "files named *.tif or *.tiff, or DICOM files",
                                    .next = "name the folder that holds the slices, or a volume file"});
 }
 
@@ -164,7 +146,11 @@ void describe_first(const TiffFile& file, VolumeInfo& info) {
 
 std::unique_ptr<VolumeReader> open_folder(const std::string& path, const OpenOptions& options) {
     const Listing listing = list_folder(path);
-    if (listing.slices.empty()) no_slices(path, listing);
+    if (listing.slices.empty()) {
+        std::unique_ptr<VolumeReader> dicom = listing.is_zarr ? nullptr : open_dicom_folder(path, options);
+        if (dicom) return dicom;
+        no_slices(path, listing);
+    }
     (void)choose_time_step(path, options, 1);
     VolumeInfo info;
     info.path = path;

@@ -54,6 +54,12 @@ using FirstBytes = std::span<const std::byte>;
 [[nodiscard]] bool is_zarr_folder(const std::string& path);
 [[nodiscard]] std::unique_ptr<VolumeReader> open_zarr_folder(const std::string& path, const OpenOptions& options);
 
+[[nodiscard]] bool looks_like_dicom(FirstBytes first, const std::string& path);
+/// With the files beside it that are of the same series.
+[[nodiscard]] std::unique_ptr<VolumeReader> open_dicom(const std::string& path, const OpenOptions& options);
+/// A series of a folder and the folders below it; null: there are no DICOM pictures.
+[[nodiscard]] std::unique_ptr<VolumeReader> open_dicom_folder(const std::string& path, const OpenOptions& options);
+
 /// A directory of slices, one image file each, unless is_zarr_folder(). Without looks_like: every other directory is read as one.
 [[nodiscard]] std::unique_ptr<VolumeReader> open_folder(const std::string& path, const OpenOptions& options);
 

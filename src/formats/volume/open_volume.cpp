@@ -21,7 +21,7 @@ namespace {
 constexpr std::int64_t kFirstBytes = 4096;
 constexpr const char* kSupported =
     "NRRD (.nrrd .nhdr), MetaImage (.mha .mhd), NIfTI-1 (.nii .nii.gz), NumPy (.npy), VTK image (.vti .vtk), TIFF (.tif), MRC (.mrc .map), "
-    "HDF5 (.h5 .ims .vtkhdf), NetCDF (.nc), OME-Zarr and Zarr (a folder, or .zip), a folder of slices, RAW";
+    "DICOM, HDF5 (.h5 .ims .vtkhdf), NetCDF (.nc), OME-Zarr and Zarr (a folder, or .zip), a folder of slices, RAW";
 
 struct ReadFormat {
     const char* name;
@@ -30,7 +30,7 @@ struct ReadFormat {
     std::unique_ptr<VolumeReader> (*open)(const std::string&, const OpenOptions&);
 };
 
-constexpr std::array<ReadFormat, 11> kReadFormats = {{{"NRRD", ".nrrd .nhdr", looks_like_nrrd, open_nrrd},
+constexpr std::array<ReadFormat, 12> kReadFormats = {{{"NRRD", ".nrrd .nhdr", looks_like_nrrd, open_nrrd},
                                                       {"NIfTI", ".nii .nii.gz", looks_like_nifti, open_nifti},
                                                       {"NumPy", ".npy", looks_like_npy, open_npy},
                                                       {"VTK image", ".vti", looks_like_vti, open_vti},
@@ -38,14 +38,14 @@ constexpr std::array<ReadFormat, 11> kReadFormats = {{{"NRRD", ".nrrd .nhdr", lo
                                                       {"TIFF", ".tif .tiff", looks_like_tiff, open_tiff},
                                                       {"MRC", ".mrc .map .ccp4 .rec .st .ali .mrcs", looks_like_mrc, open_mrc},
                                                       {"Zarr", ".zip .ozx", looks_like_zip, open_zarr_zip},
+                                                      {"DICOM", ".dcm .dicom .ima", looks_like_dicom, open_dicom},
                                                       {"MetaImage", ".mha .mhd", looks_like_metaimage, open_metaimage},
                                                       {"NetCDF", ".nc .nc4 .netcdf", looks_like_netcdf, open_netcdf},
                                                       {"HDF5", ".h5 .hdf5 .he5 .ims .nxs .nx5 .vtkhdf .jld2", looks_like_hdf5, open_hdf5}}};
 
 /// Common formats that isoatlas does not read, and how to convert them.
-constexpr std::array<std::pair<std::string_view, const char*>, 7> kForeign = {
-    {{".dcm", "convert the DICOM series to NIfTI, for example with dcm2niix"},
-     {".hdr", "give the .nii or .mhd file of the pair; of an ANALYZE pair the .img file must be beside it"},
+constexpr std::array<std::pair<std::string_view, const char*>, 6> kForeign = {
+    {{".hdr", "give the .nii or .mhd file of the pair; of an ANALYZE pair the .img file must be beside it"},
      {".img", "open it as RAW with the sizes and the type of its samples, or convert the pair to NIfTI"},
      {".mat", "save it with -v7.3, or export the array to .npy (scipy.io.loadmat and numpy.save)"},
      {".fits", "export the cube to .npy (astropy.io.fits and numpy.save)"},

@@ -35,7 +35,7 @@ TEST(OpenVolume, PathsThatAreNoVolume) {
     expect_helpful(failure_of_loading(folder.write("empty.nrrd", "")), ErrorKind::input, "empty");
     expect_helpful(failure_of_loading(folder.write("bad.nrrd", "something")), ErrorKind::input, "named like NRRD");
     expect_helpful(failure_of_loading(folder.write("bad.npy", "something")), ErrorKind::input, "named like NumPy");
-    expect_helpful(failure_of_loading(folder.write("scan.dcm", "something")), ErrorKind::unsupported, "dcm2niix");
+    expect_helpful(failure_of_loading(folder.write("scan.mat", "something")), ErrorKind::unsupported, "scipy");
     expect_helpful(failure_of_loading(folder.write("scan.nrrrd", "something")), ErrorKind::unsupported, "did you mean .nrrd?");
     expect_helpful(failure_of_loading(folder.write("scan.xyz", "something")), ErrorKind::unsupported, "MetaImage (.mha .mhd)");
     expect_helpful(failure_of_loading(folder.write("v.nrrd.gz", test::gzip(kNrrd))), ErrorKind::unsupported, "gunzip");
