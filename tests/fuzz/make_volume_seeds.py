@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Writes the seeds of the NRRD, MetaImage, NumPy, MRC, legacy VTK, Zarr and RAW targets into tests/fuzz/corpus (the files are committed; this says how they were made)."""
+"""Writes the seeds of the NRRD, MetaImage, NumPy, MRC, legacy VTK, Zarr, DICOM and RAW targets into tests/fuzz/corpus (the files are committed; this says how they were made)."""
 import gzip
 import io
 import json
@@ -90,6 +90,34 @@ def zarr_seeds():
         write("zarr", name, archive.getvalue())
 
 
+def element(tag, vr, value, implicit=False):
+    value += b"\0" if len(value) % 2 and vr == "UI" else b" " * (len(value) % 2)
+    head = struct.pack("<HH", tag >> 16, tag & 0xFFFF)
+    if implicit:
+        return head + struct.pack("<I", len(value)) + value
+    return head + vr.encode() + (struct.pack("<HI", 0, len(value)) if vr in ("OW", "SQ") else struct.pack("<H", len(value))) + value
+
+
+def dicom(syntax="1.2.840.10008.1.2.1", implicit=False, more=(), pixels=None, frames=1):
+    uid = element(0x00020010, "UI", syntax.encode())
+    numbers = {0x00280002: 1, 0x00280010: 3, 0x00280011: 4, 0x00280100: 8, 0x00280101: 8, 0x00280102: 7, 0x00280103: 0}
+    elements = {0x00080060: ("CS", b"CT"), 0x0020000E: ("UI", b"1.2.3"), 0x00200032: ("DS", b"1\\2\\3"), 0x00200037: ("DS", b"1\\0\\0\\0\\1\\0"),
+                0x00280008: ("IS", str(frames).encode()), 0x00280030: ("DS", b"0.5\\0.25"), 0x00281052: ("DS", b"-1024"), 0x00281053: ("DS", b"2")}
+    elements |= {tag: ("US", struct.pack("<H", value)) for tag, value in numbers.items()} | dict(more)
+    content = b"".join(element(tag, *elements[tag], implicit) for tag in sorted(elements))
+    pixels = element(0x7FE00010, "OW", SAMPLES[:12 * frames], implicit) if pixels is None else pixels
+    return bytes(128) + b"DICM" + element(0x00020000, "UL", struct.pack("<I", len(uid))) + uid, content + pixels
+
+
+def fragments(*all):
+    item = lambda value, kind=0xE000: struct.pack("<HHI", 0xFFFE, kind, len(value)) + value
+    return struct.pack("<HH", 0x7FE0, 0x10) + b"OB\0\0\xff\xff\xff\xff" + item(b"") + b"".join(map(item, all)) + item(b"", 0xE0DD)
+
+
+def sequence(tag, *items):
+    return tag, ("SQ", b"".join(struct.pack("<HHI", 0xFFFE, 0xE000, len(one)) + one for one in items))
+
+
 def main():
     zarr_seeds()
     oriented = (
@@ -122,6 +150,21 @@ def main():
     write("mrc", "turned", mrc(0, axes=(3, 1, 2), angles=(90, 94.3, 90), start=(0, -21, -12)) + SAMPLES[:24])
     write("mrc", "stack", mrc(0, space_group=401, cells=(2, 3, 2), origin=(1, 2, 3)) + SAMPLES[:24])
     write("mrc", "image", mrc(0, size=(6, 4, 1), space_group=0) + SAMPLES[:24])
+
+    write("dicom", "explicit", b"".join(dicom()))
+    write("dicom", "implicit", b"".join(dicom("1.2.840.10008.1.2", True)))
+    write("dicom", "bare", dicom(implicit=True, more={0x00080016: ("UI", b"1.2.840.10008.5.1.4.1.1.2")}.items())[1])
+    meta, content = dicom("1.2.840.10008.1.2.1.99")
+    packer = zlib.compressobj(9, zlib.DEFLATED, -15)
+    write("dicom", "deflated", meta + packer.compress(content) + packer.flush())
+    run = struct.pack("<2I", 1, 64) + bytes(56) + b"\x0b" + SAMPLES[:12] + b"\0"
+    write("dicom", "rle", b"".join(dicom("1.2.840.10008.1.2.5", pixels=fragments(run))))
+    jpeg = bytes.fromhex("ffd8ffc3000b08000300040111000000ffda0008010100000100ffd9")
+    write("dicom", "jpeg", b"".join(dicom("1.2.840.10008.1.2.4.70", pixels=fragments(jpeg))))
+    write("dicom", "frames", b"".join(dicom(frames=3, more={0x00180088: ("DS", b"2")}.items())))
+    frame = lambda place: sequence(0x00209113, element(0x00200032, "DS", place))
+    frames = [element(*[frame(place)[0], *frame(place)[1]]) for place in (b"0\\0\\2", b"0\\0\\1")]
+    write("dicom", "enhanced", b"".join(dicom(frames=2, more=[sequence(0x52009230, *frames)])))
 
     grid = "DIMENSIONS 2 3 4\nORIGIN 1 2 3\nSPACING 1 -2 0.5\n"
     head = lambda encoding, kind="STRUCTURED_POINTS": f"# vtk DataFile Version 3.0\nseed\n{encoding}\nDATASET {kind}\n"

@@ -124,10 +124,12 @@ bool add_dicom_file(std::vector<DicomFile>& files, DicomHeader header) {
 DicomScaling scaling_of(const std::vector<DicomSlice>& slices, VolumeInfo& info, const DicomPixels& pixels) {
     const DicomSlice& first = slices.front();
     const auto is_same = [&](const DicomSlice& slice) { return slice.slope == first.slope && slice.intercept == first.intercept; };
-    if (std::ranges::all_of(slices, is_same)) return {.is_converted = false, .calibration = {.slope = first.slope, .intercept = first.intercept, .mirror = {}}};
+    if (std::ranges::all_of(slices, is_same))
+        return {.is_converted = false, .calibration = {.slope = first.slope, .intercept = first.intercept, .mirror = {}}};
     constexpr int kExactInFloat = 16;  // bits
     info.type = pixels.stored <= kExactInFloat && !is_floating(pixels.type) ? ValueType::f32 : ValueType::f64;
-    info.notes.push_back(std::string("the slices have different slopes or intercepts: they are read as ") + name_of(info.type) + " in the unit of the values");
+    info.notes.push_back(std::string("the slices have different slopes or intercepts: they are read as ") + name_of(info.type) +
+                         " in the unit of the values");
     return {.is_converted = true, .calibration = {}};
 }
 
@@ -137,7 +139,8 @@ std::string value_unit_of(const DicomHeader& header, bool is_scaled) {
     if (type == "HU" || (modality == "CT" && is_scaled && (type.empty() || type == "US"))) return "HU";
     if (modality == "PT" || modality == "NM") {
         static constexpr std::pair<std::string_view, const char*> kPet[] = {
-            {"BQML", "Bq/mL"}, {"CNTS", "counts"}, {"GML", "g/mL"}, {"CPS", "counts/s"}, {"PROPCPS", "counts/s"}, {"CM2ML", "cm2/mL"}, {"MLMING", "mL/min/g"}};
+            {"BQML", "Bq/mL"},       {"CNTS", "counts"},  {"GML", "g/mL"},       {"CPS", "counts/s"},
+            {"PROPCPS", "counts/s"}, {"CM2ML", "cm2/mL"}, {"MLMING", "mL/min/g"}};
         const auto found = std::ranges::find(kPet, units, &std::pair<std::string_view, const char*>::first);
         return found == std::end(kPet) ? "" : found->second;
     }
@@ -146,7 +149,8 @@ std::string value_unit_of(const DicomHeader& header, bool is_scaled) {
 
 void note_values(const DicomHeader& header, const DicomPixels& pixels, bool is_converted, VolumeInfo& info) {
     const std::string photometric = header.values.text(kPhotometric);
-    if (photometric == "MONOCHROME1") info.notes.emplace_back("the file shows low values as white (MONOCHROME1); the stored values are used");
+    if (photometric == "MONOCHROME1")
+        info.notes.emplace_back("the file shows low values as white (MONOCHROME1); the stored values are used");
     if (photometric == "PALETTE COLOR") info.notes.emplace_back("the file has a colour table; the stored values are used");
     if (pixels.stored < pixels.allocated && pixels.high_bit != pixels.stored - 1)
         info.notes.emplace_back("bits beside the samples (overlays) are left out");
@@ -158,7 +162,8 @@ void note_values(const DicomHeader& header, const DicomPixels& pixels, bool is_c
     }
 }
 
-std::unique_ptr<VolumeReader> open_group(const std::string& path, const OpenOptions& options, std::vector<DicomFile> files, const DicomGroup& group) {
+std::unique_ptr<VolumeReader> open_group(const std::string& path, const OpenOptions& options, std::vector<DicomFile> files,
+                                         const DicomGroup& group) {
     DicomStack stack = dicom_stack(path, group, files);
     const TimeStep step = choose_time_step(path, options, static_cast<std::int64_t>(stack.steps.size()));
     std::vector<DicomSlice> slices = std::move(stack.steps[static_cast<std::size_t>(step.index)]);
@@ -207,11 +212,15 @@ bool looks_like_dicom(FirstBytes first, const std::string&) { return starts_like
 std::unique_ptr<VolumeReader> open_dicom(const std::string& path, const OpenOptions& options) {
     std::vector<DicomFile> files;
     if (!add_dicom_file(files, read_dicom_header(path))) {
-        throw Error(ErrorKind::unsupported, {.file = path, .what = "the DICOM file holds no picture", .expected = "an image", .next = "name a file or folder of an image series"});
+        throw Error(ErrorKind::unsupported, {.file = path,
+                                             .what = "the DICOM file holds no picture",
+                                             .expected = "an image",
+                                             .next = "name a file or folder of an image series"});
     }
     const std::string series = files[0].header.values.text(kSeries);
     const std::string folder = beside(path, "");
-    for (const std::string& name : series.empty() ? std::vector<std::string>{} : list_files(folder.empty() ? "." : folder, 0, options.follow_links)) {
+    for (const std::string& name :
+         series.empty() ? std::vector<std::string>{} : list_files(folder.empty() ? "." : folder, 0, options.follow_links)) {
         if (file_system().resolved(name) == file_system().resolved(path) || !is_dicom_file(name)) continue;
         DicomHeader header = read_dicom_header(name);
         if (header.values.text(kSeries) != series) continue;
@@ -220,7 +229,9 @@ std::unique_ptr<VolumeReader> open_dicom(const std::string& path, const OpenOpti
     }
     std::vector<DicomGroup> groups = dicom_groups(files);
     if (!options.series) {  // the groups that the file is in
-        std::erase_if(groups, [](const DicomGroup& group) { return std::ranges::none_of(group.slices, [](const DicomSlice& slice) { return slice.file == 0; }); });
+        std::erase_if(groups, [](const DicomGroup& group) {
+            return std::ranges::none_of(group.slices, [](const DicomSlice& slice) { return slice.file == 0; });
+        });
     }
     return choose_group(path, options, std::move(files), groups);
 }

@@ -35,7 +35,8 @@ std::string decode_rle(const DicomPixels& pixels, std::span<const std::byte> pac
     if (packed.size() < kRleHeader) return "it is shorter than the header of RLE";
     const FieldReader fields(packed, false);
     const std::size_t segments = fields.at<std::uint32_t>(0);
-    if (segments != bytes || segments > kMaxSegments) return "it has " + std::to_string(segments) + " RLE segments, not " + std::to_string(bytes);
+    if (segments != bytes || segments > kMaxSegments)
+        return "it has " + std::to_string(segments) + " RLE segments, not " + std::to_string(bytes);
     for (std::size_t segment = 0; segment < segments; ++segment) {
         const std::size_t begin = fields.at<std::uint32_t>(4 + 4 * segment);
         const std::size_t end = segment + 1 < segments ? fields.at<std::uint32_t>(8 + 4 * segment) : packed.size();
@@ -74,8 +75,10 @@ std::string jpeg_2000_contradiction(const DicomPixels& pixels, std::span<const s
     if (word(4) < 1 || word(5) < 1 || word(6) > word(2) || word(7) > word(3)) return "the tiles of the compressed picture are wrong";
     constexpr std::int64_t kMostTiles = 65535;
     const std::int64_t tiles_x = (word(0) - word(6) + word(4) - 1) / word(4), tiles_y = (word(1) - word(7) + word(5) - 1) / word(5);
-    if (tiles_x > kMostTiles || tiles_y > kMostTiles || tiles_x * tiles_y > kMostTiles) return "the tiles of the compressed picture are wrong";
-    if (packed.size() < kNeeded + 1 || packed[43] != std::byte{1} || packed[44] != std::byte{1}) return "the compressed picture is subsampled";
+    if (tiles_x > kMostTiles || tiles_y > kMostTiles || tiles_x * tiles_y > kMostTiles)
+        return "the tiles of the compressed picture are wrong";
+    if (packed.size() < kNeeded + 1 || packed[43] != std::byte{1} || packed[44] != std::byte{1})
+        return "the compressed picture is subsampled";
     return difference(pixels, stream);
 }
 
@@ -113,7 +116,8 @@ std::string jpeg_contradiction(const DicomPixels& pixels, std::span<const std::b
 }
 
 std::int64_t largest_dicom_ratio(const std::string& syntax) {
-    constexpr std::int64_t kDiscrete = 1 << 12, kRuns = 1 << 18;  // an empty packet of JPEG 2000 stands for a tile, a bit of JPEG-LS for 2^15
+    constexpr std::int64_t kDiscrete = 1 << 12,
+                           kRuns = 1 << 18;  // an empty packet of JPEG 2000 stands for a tile, a bit of JPEG-LS for 2^15
     constexpr std::string_view kJpeg = "1.2.840.10008.1.2.4.";
     if (syntax == "1.2.840.10008.1.2.5") return 64;
     if (!syntax.starts_with(kJpeg)) return 0;

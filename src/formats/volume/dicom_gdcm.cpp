@@ -25,7 +25,8 @@ gdcm::SmartPointer<gdcm::Image> gdcm_image(const std::string& syntax, const Dico
     image->SetDimension(0, static_cast<unsigned>(pixels.columns));
     image->SetDimension(1, static_cast<unsigned>(pixels.rows));
     const auto bits = [](int count) { return static_cast<unsigned short>(count); };
-    image->SetPixelFormat(gdcm::PixelFormat(1, bits(pixels.allocated), bits(pixels.stored), bits(pixels.high_bit), pixels.is_signed ? 1 : 0));
+    image->SetPixelFormat(
+        gdcm::PixelFormat(1, bits(pixels.allocated), bits(pixels.stored), bits(pixels.high_bit), pixels.is_signed ? 1 : 0));
     image->SetPhotometricInterpretation(gdcm::PhotometricInterpretation::MONOCHROME2);
     image->SetTransferSyntax(gdcm::TransferSyntax::GetTSType(syntax.c_str()));
     gdcm::Fragment fragment;
@@ -61,12 +62,13 @@ std::string decode_with_gdcm(const std::string&, const std::string& syntax, cons
 
 std::string decode_with_gdcm(const std::string& path, const std::string& syntax, const DicomPixels&, std::span<const std::byte>,
                              std::span<std::byte>) {
-    throw Error(ErrorKind::unsupported, {.file = path,
-                                         .what = "the pictures are compressed by " + name_of_syntax(syntax) + ", which this build cannot decode",
-                                         .expected = "a build with GDCM",
-                                         .next = "install the package libgdcm-dev and build again, or decompress the files with gdcmconv --raw",
-                                         .reason = Reason::built_without_format,
-                                         .value = "GDCM"});
+    throw Error(ErrorKind::unsupported,
+                {.file = path,
+                 .what = "the pictures are compressed by " + name_of_syntax(syntax) + ", which this build cannot decode",
+                 .expected = "a build with GDCM",
+                 .next = "install the package libgdcm-dev and build again, or decompress the files with gdcmconv --raw",
+                 .reason = Reason::built_without_format,
+                 .value = "GDCM"});
 }
 
 #endif

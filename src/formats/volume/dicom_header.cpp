@@ -110,7 +110,8 @@ std::string tag_name(DicomTag tag) {
 }
 
 bool is_vr(std::string_view vr) {
-    static constexpr std::string_view kAll = "AE AS AT CS DA DS DT FD FL IS LO LT OB OD OF OL OV OW PN SH SL SQ SS ST SV TM UC UI UL UN UR US UT UV ";
+    static constexpr std::string_view kAll =
+        "AE AS AT CS DA DS DT FD FL IS LO LT OB OD OF OL OV OW PN SH SL SQ SS ST SV TM UC UI UL UN UR US UT UV ";
     const std::size_t at = kAll.find(vr);
     return vr.size() == 2 && at != std::string_view::npos && at % 3 == 0;
 }
@@ -162,7 +163,8 @@ public:
 
     DicomHeader parse() {
         read_meta();
-        while (step()) {}
+        while (step()) {
+        }
         return std::move(header_);
     }
 
@@ -248,7 +250,8 @@ void DicomParser::read_meta() {
     const std::size_t got = input_->read(first);
     const bool has_preamble = got == first.size() && std::memcmp(first.data() + kPreamble, "DICM", 4) == 0;
     const std::int64_t begin = has_preamble ? static_cast<std::int64_t>(first.size()) : 0;
-    if (!has_preamble && !starts_like_dicom(std::span(first).first(got))) bad_header(path_, "byte 0", "is not that of a DICOM file", "\"DICM\" at byte 128");
+    if (!has_preamble && !starts_like_dicom(std::span(first).first(got)))
+        bad_header(path_, "byte 0", "is not that of a DICOM file", "\"DICM\" at byte 128");
     read_meta_elements(begin);
 }
 
@@ -299,7 +302,8 @@ void DicomParser::begin_data_set(const std::string& uid) {
 
 bool DicomParser::step() {
     while (!levels_.empty() && input_->position() >= levels_.back().end) {
-        if (input_->position() > levels_.back().end) damaged(levels_.back().sequence, "its items are longer than the sequence", "items inside it");
+        if (input_->position() > levels_.back().end)
+            damaged(levels_.back().sequence, "its items are longer than the sequence", "items inside it");
         levels_.pop_back();
     }
     const std::optional<DicomTag> tag = read_tag();
@@ -338,7 +342,8 @@ bool DicomParser::step_sequence(Level& level, DicomTag tag) {
 }
 
 void DicomParser::push(Level level) {
-    if (levels_.size() >= kMaxDepth) damaged(level.sequence, "sequences lie in sequences too deeply", "at most " + std::to_string(kMaxDepth) + " levels");
+    if (levels_.size() >= kMaxDepth)
+        damaged(level.sequence, "sequences lie in sequences too deeply", "at most " + std::to_string(kMaxDepth) + " levels");
     levels_.push_back(level);
 }
 
@@ -353,7 +358,8 @@ bool DicomParser::step_element(DicomTag tag) {
         return false;
     }
     const Wanted* wanted = is_wanted ? find_wanted(parent, tag) : nullptr;
-    const bool is_sequence = wanted != nullptr && wanted->holds == Holds::sequence && (element.vr.empty() || element.vr == "SQ" || element.vr == "UN");
+    const bool is_sequence =
+        wanted != nullptr && wanted->holds == Holds::sequence && (element.vr.empty() || element.vr == "SQ" || element.vr == "UN");
     if (is_sequence || element.length == kUndefined) {
         push({.sequence = tag,
               .end = element.length == kUndefined ? std::numeric_limits<std::int64_t>::max() : input_->position() + element.length,
@@ -393,7 +399,8 @@ void DicomParser::store(const Wanted& wanted, const Element& element) {
         values_here().add(element.tag, numbers_of<double>(fields, bytes.size()));
     } else if (bytes.size() == sizeof(std::uint32_t)) {  // of type UL
         values_here().add(element.tag, numbers_of<std::uint32_t>(fields, bytes.size()));
-    } else if (wanted.holds == Holds::u16_or_i16 && (element.vr == "SS" || (element.vr != "US" && header_.values.text(kPixelRepresentation) == "1"))) {
+    } else if (wanted.holds == Holds::u16_or_i16 &&
+               (element.vr == "SS" || (element.vr != "US" && header_.values.text(kPixelRepresentation) == "1"))) {
         values_here().add(element.tag, numbers_of<std::int16_t>(fields, bytes.size()));
     } else {
         values_here().add(element.tag, numbers_of<std::uint16_t>(fields, bytes.size()));

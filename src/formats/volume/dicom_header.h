@@ -63,14 +63,13 @@ constexpr DicomTag kTransferSyntax = 0x00020010, kImageType = 0x00080008, kInsta
                    kSpacingBetweenSlices = 0x00180088, kTriggerTime = 0x00181060, kFrameTime = 0x00181063, kImagerSpacing = 0x00181164,
                    kEffectiveEchoTime = 0x00189082, kBValue = 0x00189087, kSeries = 0x0020000E, kSeriesNumber = 0x00200011,
                    kAcquisitionNumber = 0x00200012, kPosition = 0x00200032, kOrientation = 0x00200037, kTemporalPosition = 0x00200100,
-                   kTemporalResolution = 0x00200110, kTemporalIndex = 0x00209128, kSamplesPerPixel = 0x00280002,
-                   kPhotometric = 0x00280004, kNumberOfFrames = 0x00280008, kRows = 0x00280010, kColumns = 0x00280011,
-                   kPixelSpacing = 0x00280030, kBitsAllocated = 0x00280100, kBitsStored = 0x00280101, kHighBit = 0x00280102,
-                   kPixelRepresentation = 0x00280103, kPadding = 0x00280120, kPaddingLimit = 0x00280121, kIntercept = 0x00281052,
-                   kSlope = 0x00281053, kRescaleType = 0x00281054, kUnits = 0x00541001, kDoseUnits = 0x30040002,
-                   kFrameOffsets = 0x3004000C, kDoseScaling = 0x3004000E, kShared = 0x52009229, kPerFrame = 0x52009230,
-                   kFloatPixels = 0x7FE00008, kDoublePixels = 0x7FE00009, kPixels = 0x7FE00010, kItem = 0xFFFEE000, kItemEnd = 0xFFFEE00D,
-                   kSequenceEnd = 0xFFFEE0DD;
+                   kTemporalResolution = 0x00200110, kTemporalIndex = 0x00209128, kSamplesPerPixel = 0x00280002, kPhotometric = 0x00280004,
+                   kNumberOfFrames = 0x00280008, kRows = 0x00280010, kColumns = 0x00280011, kPixelSpacing = 0x00280030,
+                   kBitsAllocated = 0x00280100, kBitsStored = 0x00280101, kHighBit = 0x00280102, kPixelRepresentation = 0x00280103,
+                   kPadding = 0x00280120, kPaddingLimit = 0x00280121, kIntercept = 0x00281052, kSlope = 0x00281053,
+                   kRescaleType = 0x00281054, kUnits = 0x00541001, kDoseUnits = 0x30040002, kFrameOffsets = 0x3004000C,
+                   kDoseScaling = 0x3004000E, kShared = 0x52009229, kPerFrame = 0x52009230, kFloatPixels = 0x7FE00008,
+                   kDoublePixels = 0x7FE00009, kPixels = 0x7FE00010, kItem = 0xFFFEE000, kItemEnd = 0xFFFEE00D, kSequenceEnd = 0xFFFEE0DD;
 }
 
 }  // namespace isoatlas

@@ -13,7 +13,8 @@ class DicomInput {
 public:
     virtual ~DicomInput() = default;
     [[nodiscard]] virtual std::int64_t position() const = 0;
-    /// Fills all of out and advances; the number of bytes that were there. Throws Error{input} when the disk fails or the stream is corrupt.
+    /// Fills all of out and advances; the number of bytes that were there. Throws Error{input} when the disk fails or the stream is
+    /// corrupt.
     [[nodiscard]] virtual std::size_t read(std::span<std::byte> out) = 0;
     /// Moves to a position, also behind the end. Cost: O(1), deflated O(distance), backwards O(position).
     virtual void seek(std::int64_t position) = 0;

@@ -17,11 +17,13 @@ namespace {
 
 using namespace dicom;
 
-[[noreturn]] void unsupported_picture(const std::string& path, const std::string& what, const std::string& expected, const std::string& next) {
+[[noreturn]] void unsupported_picture(const std::string& path, const std::string& what, const std::string& expected,
+                                      const std::string& next) {
     throw Error(ErrorKind::unsupported, {.file = path, .where = "header", .what = what, .expected = expected, .next = next});
 }
 
-std::int64_t whole_number(const DicomHeader& header, DicomTag tag, const char* name, std::int64_t missing, std::int64_t least, std::int64_t most) {
+std::int64_t whole_number(const DicomHeader& header, DicomTag tag, const char* name, std::int64_t missing, std::int64_t least,
+                          std::int64_t most) {
     const std::string* text = header.values.find(tag);
     if (text == nullptr || text->empty()) {
         if (missing >= 0) return missing;
@@ -48,7 +50,8 @@ ValueType type_of_bits(const DicomHeader& header, const DicomPixels& pixels) {
 
 void check_syntax(const DicomHeader& header) {
     if (!header.syntax.encapsulated) {
-        if (header.pixel_bytes < 0) bad_header(header.path, "pixel data", "are in fragments, but not compressed", "samples of a known size");
+        if (header.pixel_bytes < 0)
+            bad_header(header.path, "pixel data", "are in fragments, but not compressed", "samples of a known size");
         return;
     }
     if (largest_dicom_ratio(header.syntax.uid) > 0 && header.pixel_bytes < 0) return;
@@ -62,11 +65,13 @@ void check_size(const DicomHeader& header, const DicomPixels& pixels) {
     const std::int64_t wanted = sample_bytes(header.path, {3, {pixels.columns, pixels.rows, pixels.frames}}, pixels.type);
     if (!header.syntax.encapsulated) {
         if (header.pixel_bytes >= wanted) return;
-        bad_header(header.path, "pixel data", "the picture has " + std::to_string(header.pixel_bytes) + " bytes", std::to_string(wanted) + " bytes");
+        bad_header(header.path, "pixel data", "the picture has " + std::to_string(header.pixel_bytes) + " bytes",
+                   std::to_string(wanted) + " bytes");
     }
     const std::int64_t ratio = largest_dicom_ratio(header.syntax.uid);
     if (wanted / ratio > header.bound) {
-        bad_header(header.path, "pixel data", "the file is truncated: it has " + std::to_string(header.bound) + " bytes of compressed pictures",
+        bad_header(header.path, "pixel data",
+                   "the file is truncated: it has " + std::to_string(header.bound) + " bytes of compressed pictures",
                    "enough for " + std::to_string(wanted) + " bytes");
     }
 }
@@ -104,7 +109,8 @@ DicomPixels dicom_pixels(const DicomHeader& header) {
     constexpr std::int64_t kMost16 = 0xFFFF, kMostFrames = std::numeric_limits<std::int32_t>::max();
     const std::int64_t colours = whole_number(header, kSamplesPerPixel, "SamplesPerPixel", 1, 1, kMost16);
     if (colours != 1)
-        unsupported_picture(header.path, std::to_string(colours) + " values per pixel (colour)", "one value per pixel", "convert it to grey values");
+        unsupported_picture(header.path, std::to_string(colours) + " values per pixel (colour)", "one value per pixel",
+                            "convert it to grey values");
     DicomPixels pixels;
     pixels.rows = whole_number(header, kRows, "Rows", -1, 1, kMost16);
     pixels.columns = whole_number(header, kColumns, "Columns", -1, 1, kMost16);
@@ -119,7 +125,8 @@ DicomPixels dicom_pixels(const DicomHeader& header) {
         pixels.high_bit = pixels.stored - 1;
     } else {
         pixels.stored = static_cast<int>(whole_number(header, kBitsStored, "BitsStored", pixels.allocated, 1, pixels.allocated));
-        pixels.high_bit = static_cast<int>(whole_number(header, kHighBit, "HighBit", pixels.stored - 1, pixels.stored - 1, pixels.allocated - 1));
+        pixels.high_bit =
+            static_cast<int>(whole_number(header, kHighBit, "HighBit", pixels.stored - 1, pixels.stored - 1, pixels.allocated - 1));
     }
     check_syntax(header);
     check_size(header, pixels);
@@ -135,8 +142,9 @@ DicomFrames::DicomFrames(DicomHeader header, const DicomPixels& pixels) : header
 }
 
 void DicomFrames::damaged(const std::string& what, const std::string& expected) const {
-    throw Error(ErrorKind::input,
-                {.file = header_.path, .where = "pixel data", .what = what, .expected = expected, .next = "the file is damaged: get it again"});
+    throw Error(
+        ErrorKind::input,
+        {.file = header_.path, .where = "pixel data", .what = what, .expected = expected, .next = "the file is damaged: get it again"});
 }
 
 void DicomFrames::read(std::int64_t frame, std::span<std::byte> out) {
@@ -152,7 +160,8 @@ void DicomFrames::read(std::int64_t frame, std::span<std::byte> out) {
 void DicomFrames::read_native(std::int64_t frame, std::span<std::byte> out) {
     input_->seek(header_.pixels + frame * pixels_.frame_bytes());
     const std::size_t got = input_->read(out);
-    if (got < out.size()) damaged("the file ends early", std::to_string(out.size() - got) + " more bytes of frame " + std::to_string(frame));
+    if (got < out.size())
+        damaged("the file ends early", std::to_string(out.size() - got) + " more bytes of frame " + std::to_string(frame));
     if (needs_swap(header_.syntax.big_endian)) swap_bytes(out, size_of(pixels_.type));
 }
 
@@ -173,7 +182,8 @@ void DicomFrames::list_fragments() {
         const std::uint32_t tag = word(0);
         const std::int64_t bytes = word(4);
         if (tag == 0xE0DDFFFE) break;
-        if (tag != 0xE000FFFE || bytes > end - position - 8) damaged("a fragment at byte " + std::to_string(position) + " is wrong", "an item inside the file");
+        if (tag != 0xE000FFFE || bytes > end - position - 8)
+            damaged("a fragment at byte " + std::to_string(position) + " is wrong", "an item inside the file");
         if (!is_first) {
             fragments_.push_back({position + 8, bytes});
         } else if (bytes / 4 == pixels_.frames) {
@@ -195,12 +205,14 @@ std::span<const DicomFrames::Fragment> DicomFrames::fragments_of(std::int64_t fr
     const auto at = static_cast<std::size_t>(frame);
     if (static_cast<std::int64_t>(fragments_.size()) == pixels_.frames) return std::span(fragments_).subspan(at, 1);
     if (offsets_.empty() || fragments_.empty())
-        damaged(std::to_string(fragments_.size()) + " fragments for " + std::to_string(pixels_.frames) + " frames", "one for each, or a table of them");
+        damaged(std::to_string(fragments_.size()) + " fragments for " + std::to_string(pixels_.frames) + " frames",
+                "one for each, or a table of them");
     const std::int64_t base = fragments_.front().begin, first = base + offsets_[at];
     const std::int64_t last = at + 1 < offsets_.size() ? base + offsets_[at + 1] : std::numeric_limits<std::int64_t>::max();
     const auto begin = std::ranges::lower_bound(fragments_, first, {}, &Fragment::begin);
     const auto end = std::ranges::lower_bound(fragments_, last, {}, &Fragment::begin);
-    if (begin == fragments_.end() || begin->begin != first || begin >= end) damaged("the table of frames is wrong", "the offset of frame " + std::to_string(frame));
+    if (begin == fragments_.end() || begin->begin != first || begin >= end)
+        damaged("the table of frames is wrong", "the offset of frame " + std::to_string(frame));
     return {begin, end};
 }
 
@@ -211,7 +223,8 @@ void DicomFrames::read_encapsulated(std::int64_t frame, std::span<std::byte> out
         const std::size_t before = packed.size();
         packed.resize(before + static_cast<std::size_t>(fragment.bytes));
         input_->seek(fragment.begin);
-        if (input_->read(std::span(packed).subspan(before)) < static_cast<std::size_t>(fragment.bytes)) damaged("the file ends early", "a whole fragment");
+        if (input_->read(std::span(packed).subspan(before)) < static_cast<std::size_t>(fragment.bytes))
+            damaged("the file ends early", "a whole fragment");
     }
     const std::int64_t ratio = largest_dicom_ratio(header_.syntax.uid);
     const std::string where = "frame " + std::to_string(frame) + " cannot be decoded: ";

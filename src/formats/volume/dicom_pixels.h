@@ -26,8 +26,8 @@ struct DicomPixels {
     }
 };
 
-/// Checks that the file can hold what it claims. Throws Error: input (damaged, truncated), unsupported (colour, 1, 12 or 64 bits, a transfer
-/// syntax that is not decoded).
+/// Checks that the file can hold what it claims. Throws Error: input (damaged, truncated), unsupported (colour, 1, 12 or 64 bits, a
+/// transfer syntax that is not decoded).
 [[nodiscard]] DicomPixels dicom_pixels(const DicomHeader& header);
 
 /// Reads frames of one file, which stays open. Throws Error{input}.

@@ -66,7 +66,8 @@ void take_spacing(const DicomHeader& header, const FrameValues& values, DicomSli
     if (!spacing) return;
     constexpr double kMost = 1e9;
     for (const double distance : *spacing) {
-        if (!(distance > 0 && distance < kMost)) bad_header(header.path, "PixelSpacing", "is " + std::to_string(distance), "a positive distance");
+        if (!(distance > 0 && distance < kMost))
+            bad_header(header.path, "PixelSpacing", "is " + std::to_string(distance), "a positive distance");
     }
     slice.spacing = {(*spacing)[1], (*spacing)[0]};  // the file has that between rows first
 }
@@ -75,7 +76,8 @@ void take_scaling(const DicomHeader& header, const FrameValues& values, DicomSli
     constexpr double kMost = 1e30;
     const double slope = values.number(kSlope).value_or(header.values.number(kDoseScaling).value_or(1));
     const double intercept = values.number(kIntercept).value_or(0);
-    if (std::abs(slope) > 1 / kMost && std::abs(slope) < kMost && std::abs(intercept) < kMost) slice.slope = slope, slice.intercept = intercept;
+    if (std::abs(slope) > 1 / kMost && std::abs(slope) < kMost && std::abs(intercept) < kMost)
+        slice.slope = slope, slice.intercept = intercept;
 }
 
 void take_keys(const FrameValues& values, DicomSlice& slice) {
@@ -83,8 +85,9 @@ void take_keys(const FrameValues& values, DicomSlice& slice) {
         const std::string text = values.text(tag);
         return text.empty() ? values.text(other) : text;
     };
-    slice.keys = {first(kTemporalIndex, kTemporalPosition), first(kEffectiveEchoTime, kEchoTime), values.text(kTriggerTime),
-                  values.text(kBValue), values.text(kAcquisitionNumber), values.text(kAcquisitionTime), values.text(kImageType)};
+    slice.keys = {
+        first(kTemporalIndex, kTemporalPosition), first(kEffectiveEchoTime, kEchoTime), values.text(kTriggerTime), values.text(kBValue),
+        values.text(kAcquisitionNumber),          values.text(kAcquisitionTime),        values.text(kImageType)};
 }
 
 /// Frames without places of their own lie along the normal: at offsets that the file lists, or at equal distances.
@@ -123,7 +126,8 @@ bool belongs(const DicomGroup& group, const DicomSlice& slice, const std::vector
     if (!a.pixels.same_shape(b.pixels) || a.header.values.text(kSeries) != b.header.values.text(kSeries)) return false;
     constexpr double kSameDirection = 5e-4, kSameSpacing = 1e-3;
     for (std::size_t k = 0; k < 3; ++k) {
-        if (std::abs(first.row[k] - slice.row[k]) > kSameDirection || std::abs(first.column[k] - slice.column[k]) > kSameDirection) return false;
+        if (std::abs(first.row[k] - slice.row[k]) > kSameDirection || std::abs(first.column[k] - slice.column[k]) > kSameDirection)
+            return false;
     }
     if (first.spacing.has_value() != slice.spacing.has_value()) return false;
     if (!first.spacing) return true;
@@ -136,8 +140,9 @@ bool belongs(const DicomGroup& group, const DicomSlice& slice, const std::vector
 auto order_of(const DicomGroup& group, const std::vector<DicomFile>& files) {
     const DicomSlice& first = group.slices[0];
     const DicomFile& file = files[first.file];
-    return std::tuple(file.header.values.number(kSeriesNumber).value_or(0), file.header.values.text(kSeries), file.pixels.columns, file.pixels.rows,
-                      file.pixels.type, rounded_orientation(first), first.position.value_or(Vec3{}), file.header.values.text(kInstance));
+    return std::tuple(file.header.values.number(kSeriesNumber).value_or(0), file.header.values.text(kSeries), file.pixels.columns,
+                      file.pixels.rows, file.pixels.type, rounded_orientation(first), first.position.value_or(Vec3{}),
+                      file.header.values.text(kInstance));
 }
 
 std::string short_number(double value) {
@@ -186,7 +191,8 @@ std::vector<DicomSlice> dicom_slices(const DicomFile& file, std::size_t number) 
     std::vector<DicomSlice> slices;
     for (std::int64_t frame = 0; frame < file.pixels.frames; ++frame) {
         const FrameValues values(file.header, static_cast<std::size_t>(frame));
-        DicomSlice slice{.file = number, .frame = frame, .position = values.take<3>(kPosition, "ImagePositionPatient"), .spacing = {}, .keys = {}};
+        DicomSlice slice{
+            .file = number, .frame = frame, .position = values.take<3>(kPosition, "ImagePositionPatient"), .spacing = {}, .keys = {}};
         constexpr double kFarthest = 1e9;
         if (slice.position && std::ranges::any_of(*slice.position, [](double place) { return std::abs(place) > kFarthest; }))
             bad_header(file.header.path, "ImagePositionPatient", "is " + in_quotes(values.text(kPosition)), "a place in mm");
@@ -214,15 +220,15 @@ std::vector<DicomGroup> dicom_groups(const std::vector<DicomFile>& files) {
     }
     for (DicomGroup& group : groups) {
         const Vec3 normal = dicom_normal(group.slices[0]);
-        for (DicomSlice& slice : group.slices) slice.along = slice.position ? dot_product(*slice.position, normal) : static_cast<double>(slice.frame);
+        for (DicomSlice& slice : group.slices)
+            slice.along = slice.position ? dot_product(*slice.position, normal) : static_cast<double>(slice.frame);
     }
     std::ranges::stable_sort(groups, [&](const DicomGroup& a, const DicomGroup& b) { return order_of(a, files) < order_of(b, files); });
     const auto series = [&](const DicomGroup& group) { return files[group.slices[0].file].header.values.text(kSeries); };
     for (DicomGroup& group : groups) {
         const auto same = [&](const DicomGroup& other) { return series(other) == series(group); };
         group.word = series(group);
-        if (std::ranges::count_if(groups, same) > 1)
-            group.word += "/" + std::to_string(std::count_if(groups.data(), &group, same));
+        if (std::ranges::count_if(groups, same) > 1) group.word += "/" + std::to_string(std::count_if(groups.data(), &group, same));
     }
     return groups;
 }

@@ -20,8 +20,8 @@ struct DicomFile {
 };
 
 /// What may tell slices at one place apart, in the order in which it is tried.
-inline constexpr std::array<const char*, 7> kDicomKeys{
-    "TemporalPositionIdentifier", "EchoTime", "TriggerTime", "DiffusionBValue", "AcquisitionNumber", "AcquisitionTime", "ImageType"};
+inline constexpr std::array<const char*, 7> kDicomKeys{"TemporalPositionIdentifier", "EchoTime",        "TriggerTime", "DiffusionBValue",
+                                                       "AcquisitionNumber",          "AcquisitionTime", "ImageType"};
 
 struct DicomSlice {
     std::size_t file = 0;  ///< in the list of files

@@ -55,7 +55,8 @@ std::size_t drop_copies(std::vector<DicomSlice>& slices, const std::vector<Dicom
 }
 
 /// The steps by one key, if each of its values has every place once.
-std::vector<std::vector<DicomSlice>> split_by_key(const std::vector<DicomSlice>& slices, const std::vector<std::size_t>& places, std::size_t key) {
+std::vector<std::vector<DicomSlice>> split_by_key(const std::vector<DicomSlice>& slices, const std::vector<std::size_t>& places,
+                                                  std::size_t key) {
     std::map<std::pair<double, std::string>, std::vector<DicomSlice>> steps;
     std::map<std::pair<double, std::string>, std::vector<std::size_t>> taken;
     for (std::size_t i = 0; i < slices.size(); ++i) {
@@ -91,8 +92,10 @@ std::vector<std::vector<DicomSlice>> split_by_key(const std::vector<DicomSlice>&
                 {.file = path,
                  .where = "places " + list_places(odd),
                  .what = all_equal ? "each place has " + std::to_string(usual) + " slices, and nothing tells whether they are time steps"
-                                   : std::to_string(odd.size()) + (odd.size() == 1 ? " place has" : " places have") + " more or fewer slices than the others",
-                 .expected = std::to_string(usual > 1 && !all_equal ? usual : 1) + (usual > 1 && !all_equal ? " slices" : " slice") + " at each place",
+                                   : std::to_string(odd.size()) + (odd.size() == 1 ? " place has" : " places have") +
+                                         " more or fewer slices than the others",
+                 .expected = std::to_string(usual > 1 && !all_equal ? usual : 1) + (usual > 1 && !all_equal ? " slices" : " slice") +
+                             " at each place",
                  .next = "move the slices of one acquisition into a folder of their own"});
 }
 
@@ -103,7 +106,8 @@ void name_times(DicomStack& stack, std::size_t key, const std::vector<DicomFile>
     const std::optional<double> resolution = files[stack.steps[0][0].file].header.values.number(kTemporalResolution);
     for (std::size_t step = 0; step < stack.steps.size(); ++step) {
         std::optional<double> time = parse_number(stack.steps[step][0].keys[key]);
-        if (key == kTemporalKey) time = resolution && *resolution > 0 ? std::optional(*resolution * static_cast<double>(step)) : std::nullopt;
+        if (key == kTemporalKey)
+            time = resolution && *resolution > 0 ? std::optional(*resolution * static_cast<double>(step)) : std::nullopt;
         if (key <= kLastTime && time && std::isfinite(*time)) stack.times.push_back(*time);
     }
     if (stack.times.size() != stack.steps.size()) stack.times.clear();
@@ -136,7 +140,8 @@ void refuse_gaps(const std::string& path, const std::vector<DicomSlice>& slices,
         if (whole < 2 || std::abs(steps - whole) > kNearMultiple) continue;
         missing += static_cast<std::int64_t>(whole) - 1;
         if (before.size() < kShownPlaces)
-            gaps += (before.empty() ? "" : "; ") + std::string("between ") + place_text(slices[i - 1]) + " and " + place_text(slices[i]) + " mm";
+            gaps += (before.empty() ? "" : "; ") + std::string("between ") + place_text(slices[i - 1]) + " and " + place_text(slices[i]) +
+                    " mm";
         before.push_back(&slices[i - 1]);
     }
     if (before.empty()) return;
@@ -175,8 +180,8 @@ void take_third_axis(const std::string& path, const std::vector<DicomSlice>& sli
     const bool is_tilted = shift > kSideways * pixel && shift > 1e-3 * height;
     const double along = is_tilted ? length : height;
     if (is_tilted)
-        notes.push_back("the slices are displaced sideways (gantry tilt of " + short_mm(std::atan2(shift, height) * 180 / std::numbers::pi) +
-                        " degrees): the third axis is oblique");
+        notes.push_back("the slices are displaced sideways (gantry tilt of " +
+                        short_mm(std::atan2(shift, height) * 180 / std::numbers::pi) + " degrees): the third axis is oblique");
     for (std::size_t k = 0; k < 3; ++k) geometry.direction[k][2] = is_tilted ? way[k] / length : normal[k];
     geometry.spacing[2] = along / count;
     constexpr double kUneven = 0.01;
@@ -216,12 +221,14 @@ Geometry dicom_geometry(const std::string& path, const std::vector<DicomSlice>& 
     if (first.spacing) {
         geometry.spacing = {(*first.spacing)[0], (*first.spacing)[1], 1};
         geometry.unit = "mm";
-        if (first.is_detector_spacing) notes.emplace_back("the spacing is that at the detector (ImagerPixelSpacing); the object is magnified");
+        if (first.is_detector_spacing)
+            notes.emplace_back("the spacing is that at the detector (ImagerPixelSpacing); the object is magnified");
     } else {
         notes.emplace_back("the size of the pixels is not given: 1 was assumed");
     }
     if (!first.position) {
-        if (slices.size() > 1) notes.emplace_back("the places of the frames are not given: they are the third axis in their order, at a distance of 1");
+        if (slices.size() > 1)
+            notes.emplace_back("the places of the frames are not given: they are the third axis in their order, at a distance of 1");
         if (slices.size() > 1) geometry.unit.clear();
         return geometry;
     }

@@ -147,7 +147,7 @@ void describe_first(const TiffFile& file, VolumeInfo& info) {
 std::unique_ptr<VolumeReader> open_folder(const std::string& path, const OpenOptions& options) {
     const Listing listing = list_folder(path);
     if (listing.slices.empty()) {
-        std::unique_ptr<VolumeReader> dicom = listing.is_zarr ? nullptr : open_dicom_folder(path, options);
+        std::unique_ptr<VolumeReader> dicom = open_dicom_folder(path, options);
         if (dicom) return dicom;
         no_slices(path, listing);
     }

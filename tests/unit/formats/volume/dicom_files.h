@@ -41,9 +41,7 @@ public:
         return *this;
     }
     DicomFileBytes& at(double z) { return at(0, 0, z); }
-    DicomFileBytes& at(double x, double y, double z) {
-        return text(0x00200032, "DS", digits(x) + "\\" + digits(y) + "\\" + digits(z));
-    }
+    DicomFileBytes& at(double x, double y, double z) { return text(0x00200032, "DS", digits(x) + "\\" + digits(y) + "\\" + digits(z)); }
     /// Samples first, first + 1, ...
     DicomFileBytes& counting(std::uint16_t first) {
         samples_.clear();
@@ -80,7 +78,9 @@ public:
         const std::string uid = encoded(0x00020010, "UI", syntax, false);
         return std::string(128, '\0') + "DICM" + encoded(0x00020000, "UL", u32(static_cast<std::uint32_t>(uid.size())), false) + uid;
     }
-    [[nodiscard]] static std::string u16(std::uint32_t value) { return {static_cast<char>(value & 255), static_cast<char>(value >> 8 & 255)}; }
+    [[nodiscard]] static std::string u16(std::uint32_t value) {
+        return {static_cast<char>(value & 255), static_cast<char>(value >> 8 & 255)};
+    }
     [[nodiscard]] static std::string u32(std::uint32_t value) { return u16(value & 0xFFFF) + u16(value >> 16); }
     [[nodiscard]] static std::string encoded(std::uint32_t tag, const std::string& vr, const std::string& value, bool is_implicit) {
         const std::string name = u16(tag >> 16) + u16(tag & 0xFFFF);

@@ -18,8 +18,7 @@ using test::expect_helpful;
 using test::expect_reason;
 using test::failure_of_loading;
 
-constexpr const char *kImplicit = "1.2.840.10008.1.2", *kDeflated = "1.2.840.10008.1.2.1.99",
-                     *kRle = "1.2.840.10008.1.2.5";
+constexpr const char *kImplicit = "1.2.840.10008.1.2", *kDeflated = "1.2.840.10008.1.2.1.99", *kRle = "1.2.840.10008.1.2.5";
 
 std::string deflated(const std::string& bytes) {
     z_stream stream{};
@@ -40,7 +39,8 @@ std::string run_length(const std::string& samples) {
     std::string high, low;
     for (std::size_t i = 0; i + 1 < samples.size(); i += 2) low += samples[i], high += samples[i + 1];
     const auto literal = [](const std::string& bytes) { return static_cast<char>(bytes.size() - 1) + bytes; };
-    std::string header = DicomFileBytes::u32(2) + DicomFileBytes::u32(64) + DicomFileBytes::u32(static_cast<std::uint32_t>(65 + high.size()));
+    std::string header =
+        DicomFileBytes::u32(2) + DicomFileBytes::u32(64) + DicomFileBytes::u32(static_cast<std::uint32_t>(65 + high.size()));
     header.resize(64, '\0');
     return header + literal(high) + literal(low);
 }
@@ -70,6 +70,7 @@ TEST(Dicom, EveryEncodingIsTheSamePicture) {
     const auto loaded = [&](const std::string& bytes) { return test::text_of_bytes(load_volume(folder.write("v", bytes))); };
     EXPECT_EQ(loaded(slice.bytes()), slice.pixels());
     EXPECT_EQ(loaded(slice.bytes(kImplicit)), slice.pixels());
+    EXPECT_EQ(loaded(slice.bytes().replace(0, 4, std::string("II*\0", 4))), slice.pixels());  // a preamble that is a TIFF header
     EXPECT_EQ(loaded(slice.data_set(true)), slice.pixels());
     EXPECT_EQ(loaded(slice.data_set()), slice.pixels());
     EXPECT_EQ(loaded(DicomFileBytes::meta(kDeflated) + deflated(slice.data_set())), slice.pixels());
@@ -102,7 +103,9 @@ TEST(Dicom, ObliqueSlicesLieWhereTheFilesSay) {
     const double c = std::cos(0.3), s = std::sin(0.3);
     for (int i = 0; i < 4; ++i) {
         DicomFileBytes slice;
-        slice.text(0x00200037, "DS", "0\\" + DicomFileBytes::digits(c) + "\\" + DicomFileBytes::digits(s) + "\\0\\" + DicomFileBytes::digits(-s) + "\\" + DicomFileBytes::digits(c));
+        slice.text(0x00200037, "DS",
+                   "0\\" + DicomFileBytes::digits(c) + "\\" + DicomFileBytes::digits(s) + "\\0\\" + DicomFileBytes::digits(-s) + "\\" +
+                       DicomFileBytes::digits(c));
         folder.write("s" + std::to_string(i), slice.at(10 - 3 * i, 20, 30).counting(static_cast<std::uint16_t>(i)).bytes());
     }
     const Volume volume = load_volume(path_of(folder));
@@ -150,7 +153,8 @@ TEST(Dicom, UnevenDistancesAreCoordinates) {
 
 TEST(Dicom, TiltedStacksAreOblique) {
     const test::TestFolder folder;
-    for (int i = 0; i < 3; ++i) folder.write("s" + std::to_string(i), DicomFileBytes().at(0, i, 2 * i).counting(static_cast<std::uint16_t>(i)).bytes());
+    for (int i = 0; i < 3; ++i)
+        folder.write("s" + std::to_string(i), DicomFileBytes().at(0, i, 2 * i).counting(static_cast<std::uint16_t>(i)).bytes());
     const VolumeInfo info = open_volume(path_of(folder))->info();
     EXPECT_NEAR(skew_of(info.geometry, 3), 2 / std::sqrt(5), 1e-12);
     EXPECT_NEAR(to_physical(info.geometry, {0, 0, 2})[1], 2, 1e-12);
@@ -163,8 +167,11 @@ TEST(Dicom, RepeatedPlacesAreTimeSteps) {
     const test::TestFolder folder;
     for (int echo = 0; echo < 2; ++echo) {
         for (int z = 0; z < 3; ++z)
-            folder.write(std::to_string(z) + std::to_string(echo),
-                         DicomFileBytes().at(z).text(0x00180081, "DS", echo == 0 ? "12.5" : "5").counting(static_cast<std::uint16_t>(10 * echo + z)).bytes());
+            folder.write(std::to_string(z) + std::to_string(echo), DicomFileBytes()
+                                                                       .at(z)
+                                                                       .text(0x00180081, "DS", echo == 0 ? "12.5" : "5")
+                                                                       .counting(static_cast<std::uint16_t>(10 * echo + z))
+                                                                       .bytes());
     }
     expect_reason(failure_of_loading(path_of(folder)), ErrorKind::usage, Reason::time_step_needed, "1");
     OpenOptions options;
@@ -201,8 +208,13 @@ TEST(Dicom, SeriesAreChosen) {
 TEST(Dicom, ValuesOfSlices) {
     const test::TestFolder folder;
     const auto write = [&](int z, const char* slope, const char* intercept) {
-        folder.write("s" + std::to_string(z), DicomFileBytes().at(z).text(0x00080060, "CS", "CT").text(0x00281052, "DS", intercept).text(0x00281053, "DS", slope)
-                                                  .counting(100).bytes());
+        folder.write("s" + std::to_string(z), DicomFileBytes()
+                                                  .at(z)
+                                                  .text(0x00080060, "CS", "CT")
+                                                  .text(0x00281052, "DS", intercept)
+                                                  .text(0x00281053, "DS", slope)
+                                                  .counting(100)
+                                                  .bytes());
     };
     write(0, "2", "-1024"), write(1, "2", "-1024");
     const Volume same = load_volume(path_of(folder));
@@ -244,7 +256,8 @@ std::string enhanced(bool has_undefined_lengths) {
     const auto sequence = [&](std::uint32_t tag, const std::vector<std::string>& items) {
         std::string all;
         for (const std::string& one : items)
-            all += has_undefined_lengths ? F::u16(0xFFFE) + F::u16(0xE000) + F::u32(0xFFFFFFFF) + one + F::item(0xE00D, "") : F::item(0xE000, one);
+            all += has_undefined_lengths ? F::u16(0xFFFE) + F::u16(0xE000) + F::u32(0xFFFFFFFF) + one + F::item(0xE00D, "")
+                                         : F::item(0xE000, one);
         if (!has_undefined_lengths) return F::encoded(tag, "SQ", all, false);
         return F::u16(tag >> 16) + F::u16(tag & 0xFFFF) + "SQ" + std::string(2, '\0') + F::u32(0xFFFFFFFF) + all + F::item(0xE0DD, "");
     };
@@ -273,7 +286,8 @@ TEST(Dicom, EnhancedFramesHaveTheirPlaces) {
 TEST(Dicom, PlainFramesLieAlongTheNormal) {
     const test::TestFolder folder;
     DicomFileBytes file;
-    file.text(0x00280008, "IS", "3").samples(DicomFileBytes().counting(1).pixels() + DicomFileBytes().counting(2).pixels() + DicomFileBytes().counting(3).pixels());
+    file.text(0x00280008, "IS", "3")
+        .samples(DicomFileBytes().counting(1).pixels() + DicomFileBytes().counting(2).pixels() + DicomFileBytes().counting(3).pixels());
     const auto load = [&](const DicomFileBytes& one) { return load_volume(folder.write("v", one.bytes())); };
     EXPECT_EQ(load(file).info.geometry.unit, "");
     EXPECT_EQ(load(DicomFileBytes(file).text(0x00180088, "DS", "5")).info.geometry.spacing[2], 5);
@@ -284,7 +298,8 @@ TEST(Dicom, PlainFramesLieAlongTheNormal) {
 
 TEST(Dicom, Refusals) {
     const test::TestFolder folder;
-    const auto refused = [&](DicomFileBytes slice, ErrorKind kind, const std::string& says, const std::string& syntax = "1.2.840.10008.1.2.1") {
+    const auto refused = [&](DicomFileBytes slice, ErrorKind kind, const std::string& says,
+                             const std::string& syntax = "1.2.840.10008.1.2.1") {
         const test::Failure failure = failure_of_loading(folder.write("v.dcm", slice.bytes(syntax)));
         expect_helpful(failure, kind, says);
         expect_no_patient(failure.message);
