@@ -20,8 +20,6 @@
 namespace isoatlas {
 namespace {
 
-using namespace dicom;
-
 constexpr std::size_t kMaxFiles = 200000;
 constexpr int kMaxFolders = 4;  // PATIENT/STUDY/SERIES/FILE
 
@@ -134,8 +132,10 @@ DicomScaling scaling_of(const std::vector<DicomSlice>& slices, VolumeInfo& info,
 }
 
 std::string value_unit_of(const DicomHeader& header, bool is_scaled) {
-    const std::string modality = header.values.text(kModality), units = header.values.text(kUnits), dose = header.values.text(kDoseUnits);
-    const std::string type = header.values.text(kRescaleType).empty() ? header.shared.text(kRescaleType) : header.values.text(kRescaleType);
+    const std::string modality = header.values.text(kDicomModality), units = header.values.text(kDicomUnits),
+                      dose = header.values.text(kDicomDoseUnits);
+    const std::string type =
+        header.values.text(kDicomRescaleType).empty() ? header.shared.text(kDicomRescaleType) : header.values.text(kDicomRescaleType);
     if (type == "HU" || (modality == "CT" && is_scaled && (type.empty() || type == "US"))) return "HU";
     if (modality == "PT" || modality == "NM") {
         static constexpr std::pair<std::string_view, const char*> kPet[] = {
@@ -148,14 +148,14 @@ std::string value_unit_of(const DicomHeader& header, bool is_scaled) {
 }
 
 void note_values(const DicomHeader& header, const DicomPixels& pixels, bool is_converted, VolumeInfo& info) {
-    const std::string photometric = header.values.text(kPhotometric);
+    const std::string photometric = header.values.text(kDicomPhotometric);
     if (photometric == "MONOCHROME1")
         info.notes.emplace_back("the file shows low values as white (MONOCHROME1); the stored values are used");
     if (photometric == "PALETTE COLOR") info.notes.emplace_back("the file has a colour table; the stored values are used");
     if (pixels.stored < pixels.allocated && pixels.high_bit != pixels.stored - 1)
         info.notes.emplace_back("bits beside the samples (overlays) are left out");
-    if (const std::optional<double> padding = header.values.number(kPadding); padding && !is_converted) {
-        const std::optional<double> limit = header.values.number(kPaddingLimit);
+    if (const std::optional<double> padding = header.values.number(kDicomPadding); padding && !is_converted) {
+        const std::optional<double> limit = header.values.number(kDicomPaddingLimit);
         const auto whole = [](double value) { return std::to_string(static_cast<std::int64_t>(value)); };
         info.notes.push_back("samples of " + whole(*padding) + (limit ? " to " + whole(*limit) : "") +
                              " lie outside the picture (PixelPaddingValue); give that as the no-data value to leave them out");
@@ -217,13 +217,13 @@ std::unique_ptr<VolumeReader> open_dicom(const std::string& path, const OpenOpti
                                              .expected = "an image",
                                              .next = "name a file or folder of an image series"});
     }
-    const std::string series = files[0].header.values.text(kSeries);
+    const std::string series = files[0].header.values.text(kDicomSeries);
     const std::string folder = beside(path, "");
     for (const std::string& name :
          series.empty() ? std::vector<std::string>{} : list_files(folder.empty() ? "." : folder, 0, options.follow_links)) {
         if (file_system().resolved(name) == file_system().resolved(path) || !is_dicom_file(name)) continue;
         DicomHeader header = read_dicom_header(name);
-        if (header.values.text(kSeries) != series) continue;
+        if (header.values.text(kDicomSeries) != series) continue;
         if (!options.follow_links) require_own_folder(path, name);
         add_dicom_file(files, std::move(header));
     }

@@ -10,94 +10,16 @@
 #include "formats/common/text.h"
 #include "formats/volume/bad_header.h"
 #include "formats/volume/dicom_input.h"
+#include "formats/volume/dicom_wanted.h"
 
 namespace isoatlas {
 namespace {
-
-using namespace dicom;
 
 constexpr std::int64_t kUndefined = 0xFFFFFFFF;
 constexpr std::int64_t kMaxValue = 1 << 20;  // bytes of a wanted element
 constexpr std::size_t kMaxDepth = 64;
 constexpr std::size_t kPreamble = 128;
 constexpr DicomTag kGroupLength = 0x00020000;
-
-/// What a wanted element holds.
-enum class Holds : std::uint8_t { text, u16, u16_or_i16, f64, sequence };
-
-struct Wanted {
-    DicomTag parent;  ///< the sequence that it lies in; 0: the data set
-    DicomTag tag;
-    Holds holds = Holds::text;
-};
-
-constexpr DicomTag kPlanePosition = 0x00209113, kPlaneOrientation = 0x00209116, kPixelMeasures = 0x00289110,
-                   kValueTransformation = 0x00289145, kFrameContent = 0x00209111, kEcho = 0x00189114, kDiffusion = 0x00189117,
-                   kDetector = 0x00540022;
-
-constexpr Wanted kWanted[] = {{0, kImageType},
-                              {0, kInstance},
-                              {0, kAcquisitionTime},
-                              {0, kModality},
-                              {0, kSeriesDescription},
-                              {0, kSliceThickness},
-                              {0, kEchoTime},
-                              {0, kSpacingBetweenSlices},
-                              {0, kTriggerTime},
-                              {0, kFrameTime},
-                              {0, kImagerSpacing},
-                              {0, kBValue, Holds::f64},
-                              {0, kSeries},
-                              {0, kSeriesNumber},
-                              {0, kAcquisitionNumber},
-                              {0, kPosition},
-                              {0, kOrientation},
-                              {0, kTemporalPosition},
-                              {0, kTemporalResolution},
-                              {0, kSamplesPerPixel, Holds::u16},
-                              {0, kPhotometric},
-                              {0, kNumberOfFrames},
-                              {0, kRows, Holds::u16},
-                              {0, kColumns, Holds::u16},
-                              {0, kPixelSpacing},
-                              {0, kBitsAllocated, Holds::u16},
-                              {0, kBitsStored, Holds::u16},
-                              {0, kHighBit, Holds::u16},
-                              {0, kPixelRepresentation, Holds::u16},
-                              {0, kPadding, Holds::u16_or_i16},
-                              {0, kPaddingLimit, Holds::u16_or_i16},
-                              {0, kIntercept},
-                              {0, kSlope},
-                              {0, kRescaleType},
-                              {0, kUnits},
-                              {0, kDoseUnits},
-                              {0, kFrameOffsets},
-                              {0, kDoseScaling},
-                              {0, kShared, Holds::sequence},
-                              {0, kPerFrame, Holds::sequence},
-                              {0, kDetector, Holds::sequence},
-                              {kDetector, kPosition},
-                              {kDetector, kOrientation},
-                              {kPlanePosition, kPosition},
-                              {kPlaneOrientation, kOrientation},
-                              {kPixelMeasures, kPixelSpacing},
-                              {kPixelMeasures, kSliceThickness},
-                              {kPixelMeasures, kSpacingBetweenSlices},
-                              {kValueTransformation, kIntercept},
-                              {kValueTransformation, kSlope},
-                              {kValueTransformation, kRescaleType},
-                              {kFrameContent, kTemporalIndex, Holds::u16},  // UL: see number_text()
-                              {kEcho, kEffectiveEchoTime, Holds::f64},
-                              {kDiffusion, kBValue, Holds::f64}};
-
-constexpr DicomTag kGroups[] = {kPlanePosition, kPlaneOrientation, kPixelMeasures, kValueTransformation, kFrameContent, kEcho, kDiffusion};
-
-const Wanted* find_wanted(DicomTag parent, DicomTag tag) {
-    static constexpr Wanted kGroup{0, 0, Holds::sequence};
-    if ((parent == kShared || parent == kPerFrame) && std::ranges::count(kGroups, tag) > 0) return &kGroup;
-    const auto found = std::ranges::find_if(kWanted, [&](const Wanted& wanted) { return wanted.parent == parent && wanted.tag == tag; });
-    return found == std::end(kWanted) ? nullptr : found;
-}
 
 std::string tag_name(DicomTag tag) {
     static constexpr char kDigits[] = "0123456789ABCDEF";
@@ -234,7 +156,7 @@ private:
     bool step_sequence(Level& level, DicomTag tag);
     bool step_element(DicomTag tag);
     void push(Level level);
-    void store(const Wanted& wanted, const Element& element);
+    void store(const WantedElement& wanted, const Element& element);
     void found_pixels(const Element& element);
     DicomValues& values_here();
 
@@ -265,11 +187,11 @@ void DicomParser::read_meta_elements(std::int64_t begin) {
         if (!tag || *tag >> 16 != 2) break;
         const Element element = read_element(*tag, false);
         if (element.length > header_.file_bytes - input_->position()) truncated(*tag);
-        if (*tag == kTransferSyntax || *tag == kGroupLength) {
+        if (*tag == kDicomTransferSyntax || *tag == kGroupLength) {
             std::string value(static_cast<std::size_t>(std::min<std::int64_t>(element.length, 64)), '\0');
             if (input_->read(std::as_writable_bytes(std::span(value))) < value.size()) truncated(*tag);
             input_->seek(input_->position() - static_cast<std::int64_t>(value.size()));
-            if (*tag == kTransferSyntax) uid = trim(value.substr(0, value.find('\0')));
+            if (*tag == kDicomTransferSyntax) uid = trim(value.substr(0, value.find('\0')));
             if (*tag == kGroupLength && value.size() == 4) end = input_->position() + 4 + u32(std::as_bytes(std::span(value)));
         }
         skip(*tag, element.length);
@@ -312,7 +234,7 @@ bool DicomParser::step() {
         return false;
     }
     if (!levels_.empty() && !levels_.back().is_item) return step_sequence(levels_.back(), *tag);
-    if (*tag == kItemEnd && !levels_.empty()) {
+    if (*tag == kDicomItemEnd && !levels_.empty()) {
         static_cast<void>(read_length(*tag));
         levels_.pop_back();
         return true;
@@ -323,16 +245,16 @@ bool DicomParser::step() {
 /// Between the items of a sequence, or the fragments of an icon.
 bool DicomParser::step_sequence(Level& level, DicomTag tag) {
     const std::int64_t length = read_length(tag);
-    if (tag == kSequenceEnd) {
+    if (tag == kDicomSequenceEnd) {
         levels_.pop_back();
         return true;
     }
-    if (tag != kItem) damaged(tag, "is not an item of the sequence " + tag_name(level.sequence), "an item");
+    if (tag != kDicomItem) damaged(tag, "is not an item of the sequence " + tag_name(level.sequence), "an item");
     if (level.has_fragments) {
         skip(tag, length);
         return true;
     }
-    if (level.is_wanted && level.sequence == kPerFrame) header_.frames.emplace_back();
+    if (level.is_wanted && level.sequence == kDicomPerFrame) header_.frames.emplace_back();
     push({.sequence = level.sequence,
           .end = length == kUndefined ? std::numeric_limits<std::int64_t>::max() : input_->position() + length,
           .is_item = true,
@@ -353,21 +275,21 @@ bool DicomParser::step_element(DicomTag tag) {
     const bool is_wanted = levels_.empty() || levels_.back().is_wanted;
     const DicomTag parent = levels_.empty() ? 0 : levels_.back().sequence;
     const Element element = read_element(tag, is_implicit);
-    if (levels_.empty() && (tag == kPixels || tag == kFloatPixels || tag == kDoublePixels)) {
+    if (levels_.empty() && (tag == kDicomPixels || tag == kDicomFloatPixels || tag == kDicomDoublePixels)) {
         found_pixels(element);
         return false;
     }
-    const Wanted* wanted = is_wanted ? find_wanted(parent, tag) : nullptr;
+    const WantedElement* wanted = is_wanted ? find_wanted_element(parent, tag) : nullptr;
     const bool is_sequence =
-        wanted != nullptr && wanted->holds == Holds::sequence && (element.vr.empty() || element.vr == "SQ" || element.vr == "UN");
+        wanted != nullptr && wanted->holds == DicomHolds::sequence && (element.vr.empty() || element.vr == "SQ" || element.vr == "UN");
     if (is_sequence || element.length == kUndefined) {
         push({.sequence = tag,
               .end = element.length == kUndefined ? std::numeric_limits<std::int64_t>::max() : input_->position() + element.length,
               .is_item = false,
               .is_wanted = is_sequence,
               .is_implicit = is_implicit || element.vr == "UN",
-              .has_fragments = element.vr.empty() ? tag == kPixels : element.vr != "SQ" && element.vr != "UN"});
-    } else if (wanted != nullptr && wanted->holds != Holds::sequence) {
+              .has_fragments = element.vr.empty() ? tag == kDicomPixels : element.vr != "SQ" && element.vr != "UN"});
+    } else if (wanted != nullptr && wanted->holds != DicomHolds::sequence) {
         store(*wanted, element);
     } else {
         skip(tag, element.length);
@@ -377,13 +299,13 @@ bool DicomParser::step_element(DicomTag tag) {
 
 DicomValues& DicomParser::values_here() {
     for (const Level& level : levels_) {
-        if (level.sequence == kShared) return header_.shared;
-        if (level.sequence == kPerFrame) return header_.frames.back();
+        if (level.sequence == kDicomShared) return header_.shared;
+        if (level.sequence == kDicomPerFrame) return header_.frames.back();
     }
     return header_.values;
 }
 
-void DicomParser::store(const Wanted& wanted, const Element& element) {
+void DicomParser::store(const WantedElement& wanted, const Element& element) {
     if (element.length > kMaxValue || element.length > input_->size_bound() - input_->position()) {
         if (element.length <= kMaxValue) truncated(element.tag);
         return skip(element.tag, element.length);
@@ -392,15 +314,15 @@ void DicomParser::store(const Wanted& wanted, const Element& element) {
     const std::span<std::byte> bytes = std::as_writable_bytes(std::span(value));
     if (input_->read(bytes) < bytes.size()) truncated(element.tag);
     const FieldReader fields(bytes, big_endian_);
-    const bool is_double = wanted.holds == Holds::f64 && bytes.size() % sizeof(double) == 0;
-    if (wanted.holds == Holds::text) {
+    const bool is_double = wanted.holds == DicomHolds::f64 && bytes.size() % sizeof(double) == 0;
+    if (wanted.holds == DicomHolds::text) {
         values_here().add(element.tag, std::string(trim(value.substr(0, value.find('\0')))));
     } else if (is_double) {
         values_here().add(element.tag, numbers_of<double>(fields, bytes.size()));
     } else if (bytes.size() == sizeof(std::uint32_t)) {  // of type UL
         values_here().add(element.tag, numbers_of<std::uint32_t>(fields, bytes.size()));
-    } else if (wanted.holds == Holds::u16_or_i16 &&
-               (element.vr == "SS" || (element.vr != "US" && header_.values.text(kPixelRepresentation) == "1"))) {
+    } else if (wanted.holds == DicomHolds::u16_or_i16 &&
+               (element.vr == "SS" || (element.vr != "US" && header_.values.text(kDicomPixelRepresentation) == "1"))) {
         values_here().add(element.tag, numbers_of<std::int16_t>(fields, bytes.size()));
     } else {
         values_here().add(element.tag, numbers_of<std::uint16_t>(fields, bytes.size()));
@@ -420,67 +342,6 @@ void DicomParser::found_pixels(const Element& element) {
 }
 
 }  // namespace
-
-const std::string* DicomValues::find(DicomTag tag) const {
-    const auto found = std::ranges::find(values_, tag, &std::pair<DicomTag, std::string>::first);
-    return found == values_.end() ? nullptr : &found->second;
-}
-
-std::string DicomValues::text(DicomTag tag) const {
-    const std::string* found = find(tag);
-    return found == nullptr ? "" : *found;
-}
-
-std::optional<std::vector<double>> DicomValues::numbers(DicomTag tag) const {
-    const std::string* found = find(tag);
-    if (found == nullptr || found->empty()) return std::nullopt;
-    std::vector<double> numbers;
-    for (std::string_view rest = *found;;) {
-        const std::size_t end = rest.find('\\');
-        std::string_view word = trim(rest.substr(0, end));
-        if (word.starts_with('+')) word.remove_prefix(1);
-        const std::optional<double> number = parse_number(word);
-        if (!number || !std::isfinite(*number)) return std::nullopt;
-        numbers.push_back(*number);
-        if (end == std::string_view::npos) return numbers;
-        rest.remove_prefix(end + 1);
-    }
-}
-
-std::optional<double> DicomValues::number(DicomTag tag) const {
-    const std::optional<std::vector<double>> all = numbers(tag);
-    return all ? std::optional(all->front()) : std::nullopt;
-}
-
-std::string name_of_syntax(const std::string& uid) {
-    static constexpr std::pair<std::string_view, const char*> kNames[] = {{"1.2.840.10008.1.2", "implicit little endian"},
-                                                                          {"1.2.840.10008.1.2.1", "explicit little endian"},
-                                                                          {"1.2.840.10008.1.2.1.99", "deflate"},
-                                                                          {"1.2.840.10008.1.2.2", "explicit big endian"},
-                                                                          {"1.2.840.10008.1.2.4.50", "JPEG baseline"},
-                                                                          {"1.2.840.10008.1.2.4.51", "JPEG extended"},
-                                                                          {"1.2.840.10008.1.2.4.57", "JPEG lossless"},
-                                                                          {"1.2.840.10008.1.2.4.70", "JPEG lossless"},
-                                                                          {"1.2.840.10008.1.2.4.80", "JPEG-LS lossless"},
-                                                                          {"1.2.840.10008.1.2.4.81", "JPEG-LS"},
-                                                                          {"1.2.840.10008.1.2.4.90", "JPEG 2000 lossless"},
-                                                                          {"1.2.840.10008.1.2.4.91", "JPEG 2000"},
-                                                                          {"1.2.840.10008.1.2.4.92", "JPEG 2000 part 2 lossless"},
-                                                                          {"1.2.840.10008.1.2.4.93", "JPEG 2000 part 2"},
-                                                                          {"1.2.840.10008.1.2.4.100", "MPEG-2"},
-                                                                          {"1.2.840.10008.1.2.4.101", "MPEG-2"},
-                                                                          {"1.2.840.10008.1.2.4.102", "MPEG-4"},
-                                                                          {"1.2.840.10008.1.2.4.103", "MPEG-4"},
-                                                                          {"1.2.840.10008.1.2.4.107", "HEVC"},
-                                                                          {"1.2.840.10008.1.2.4.110", "JPEG XL lossless"},
-                                                                          {"1.2.840.10008.1.2.4.112", "JPEG XL"},
-                                                                          {"1.2.840.10008.1.2.4.201", "HTJ2K lossless"},
-                                                                          {"1.2.840.10008.1.2.4.202", "HTJ2K lossless"},
-                                                                          {"1.2.840.10008.1.2.4.203", "HTJ2K"},
-                                                                          {"1.2.840.10008.1.2.5", "RLE"}};
-    const auto found = std::ranges::find(kNames, uid, &std::pair<std::string_view, const char*>::first);
-    return found == std::end(kNames) ? "transfer syntax " + in_quotes(uid) : found->second;
-}
 
 bool starts_like_dicom(std::span<const std::byte> first) {
     if (first.size() >= kPreamble + 4 && std::memcmp(first.data() + kPreamble, "DICM", 4) == 0) return true;

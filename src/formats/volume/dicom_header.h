@@ -57,19 +57,22 @@ struct DicomHeader {
 /// Reads up to the picture. Memory: the wanted elements, which lie in the file. Throws Error{input} for a damaged or truncated file.
 [[nodiscard]] DicomHeader read_dicom_header(const std::string& path);
 
-namespace dicom {  // tags
-constexpr DicomTag kTransferSyntax = 0x00020010, kImageType = 0x00080008, kInstance = 0x00080018, kAcquisitionTime = 0x00080032,
-                   kModality = 0x00080060, kSeriesDescription = 0x0008103E, kSliceThickness = 0x00180050, kEchoTime = 0x00180081,
-                   kSpacingBetweenSlices = 0x00180088, kTriggerTime = 0x00181060, kFrameTime = 0x00181063, kImagerSpacing = 0x00181164,
-                   kEffectiveEchoTime = 0x00189082, kBValue = 0x00189087, kSeries = 0x0020000E, kSeriesNumber = 0x00200011,
-                   kAcquisitionNumber = 0x00200012, kPosition = 0x00200032, kOrientation = 0x00200037, kTemporalPosition = 0x00200100,
-                   kTemporalResolution = 0x00200110, kTemporalIndex = 0x00209128, kSamplesPerPixel = 0x00280002, kPhotometric = 0x00280004,
-                   kNumberOfFrames = 0x00280008, kRows = 0x00280010, kColumns = 0x00280011, kPixelSpacing = 0x00280030,
-                   kBitsAllocated = 0x00280100, kBitsStored = 0x00280101, kHighBit = 0x00280102, kPixelRepresentation = 0x00280103,
-                   kPadding = 0x00280120, kPaddingLimit = 0x00280121, kIntercept = 0x00281052, kSlope = 0x00281053,
-                   kRescaleType = 0x00281054, kUnits = 0x00541001, kDoseUnits = 0x30040002, kFrameOffsets = 0x3004000C,
-                   kDoseScaling = 0x3004000E, kShared = 0x52009229, kPerFrame = 0x52009230, kFloatPixels = 0x7FE00008,
-                   kDoublePixels = 0x7FE00009, kPixels = 0x7FE00010, kItem = 0xFFFEE000, kItemEnd = 0xFFFEE00D, kSequenceEnd = 0xFFFEE0DD;
-}
+// Tags.
+inline constexpr DicomTag kDicomTransferSyntax = 0x00020010, kDicomImageType = 0x00080008, kDicomInstance = 0x00080018,
+                          kDicomAcquisitionTime = 0x00080032, kDicomModality = 0x00080060, kDicomSeriesDescription = 0x0008103E,
+                          kDicomSliceThickness = 0x00180050, kDicomEchoTime = 0x00180081, kDicomSpacingBetweenSlices = 0x00180088,
+                          kDicomTriggerTime = 0x00181060, kDicomFrameTime = 0x00181063, kDicomImagerSpacing = 0x00181164,
+                          kDicomEffectiveEchoTime = 0x00189082, kDicomBValue = 0x00189087, kDicomSeries = 0x0020000E,
+                          kDicomSeriesNumber = 0x00200011, kDicomAcquisitionNumber = 0x00200012, kDicomPosition = 0x00200032,
+                          kDicomOrientation = 0x00200037, kDicomTemporalPosition = 0x00200100, kDicomTemporalResolution = 0x00200110,
+                          kDicomTemporalIndex = 0x00209128, kDicomSamplesPerPixel = 0x00280002, kDicomPhotometric = 0x00280004,
+                          kDicomNumberOfFrames = 0x00280008, kDicomRows = 0x00280010, kDicomColumns = 0x00280011,
+                          kDicomPixelSpacing = 0x00280030, kDicomBitsAllocated = 0x00280100, kDicomBitsStored = 0x00280101,
+                          kDicomHighBit = 0x00280102, kDicomPixelRepresentation = 0x00280103, kDicomPadding = 0x00280120,
+                          kDicomPaddingLimit = 0x00280121, kDicomIntercept = 0x00281052, kDicomSlope = 0x00281053,
+                          kDicomRescaleType = 0x00281054, kDicomUnits = 0x00541001, kDicomDoseUnits = 0x30040002,
+                          kDicomFrameOffsets = 0x3004000C, kDicomDoseScaling = 0x3004000E, kDicomShared = 0x52009229,
+                          kDicomPerFrame = 0x52009230, kDicomFloatPixels = 0x7FE00008, kDicomDoublePixels = 0x7FE00009,
+                          kDicomPixels = 0x7FE00010, kDicomItem = 0xFFFEE000, kDicomItemEnd = 0xFFFEE00D, kDicomSequenceEnd = 0xFFFEE0DD;
 
 }  // namespace isoatlas

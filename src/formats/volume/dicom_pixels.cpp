@@ -15,8 +15,6 @@
 namespace isoatlas {
 namespace {
 
-using namespace dicom;
-
 [[noreturn]] void unsupported_picture(const std::string& path, const std::string& what, const std::string& expected,
                                       const std::string& next) {
     throw Error(ErrorKind::unsupported, {.file = path, .where = "header", .what = what, .expected = expected, .next = next});
@@ -36,8 +34,8 @@ std::int64_t whole_number(const DicomHeader& header, DicomTag tag, const char* n
 }
 
 ValueType type_of_bits(const DicomHeader& header, const DicomPixels& pixels) {
-    if (header.pixel_tag == kFloatPixels) return ValueType::f32;
-    if (header.pixel_tag == kDoublePixels) return ValueType::f64;
+    if (header.pixel_tag == kDicomFloatPixels) return ValueType::f32;
+    if (header.pixel_tag == kDicomDoublePixels) return ValueType::f64;
     switch (pixels.allocated) {
         case 8: return pixels.is_signed ? ValueType::i8 : ValueType::u8;
         case 16: return pixels.is_signed ? ValueType::i16 : ValueType::u16;
@@ -107,26 +105,26 @@ void keep_stored_bits(std::span<std::byte> samples, const DicomPixels& pixels) {
 
 DicomPixels dicom_pixels(const DicomHeader& header) {
     constexpr std::int64_t kMost16 = 0xFFFF, kMostFrames = std::numeric_limits<std::int32_t>::max();
-    const std::int64_t colours = whole_number(header, kSamplesPerPixel, "SamplesPerPixel", 1, 1, kMost16);
+    const std::int64_t colours = whole_number(header, kDicomSamplesPerPixel, "SamplesPerPixel", 1, 1, kMost16);
     if (colours != 1)
         unsupported_picture(header.path, std::to_string(colours) + " values per pixel (colour)", "one value per pixel",
                             "convert it to grey values");
     DicomPixels pixels;
-    pixels.rows = whole_number(header, kRows, "Rows", -1, 1, kMost16);
-    pixels.columns = whole_number(header, kColumns, "Columns", -1, 1, kMost16);
-    pixels.frames = whole_number(header, kNumberOfFrames, "NumberOfFrames", 1, 1, kMostFrames);
-    const bool is_floating_point = header.pixel_tag != kPixels;
-    const std::int64_t bits = header.pixel_tag == kDoublePixels ? 64 : is_floating_point ? 32 : -1;
-    pixels.allocated = static_cast<int>(whole_number(header, kBitsAllocated, "BitsAllocated", bits, 1, 64));
-    pixels.is_signed = whole_number(header, kPixelRepresentation, "PixelRepresentation", 0, 0, 1) == 1;
+    pixels.rows = whole_number(header, kDicomRows, "Rows", -1, 1, kMost16);
+    pixels.columns = whole_number(header, kDicomColumns, "Columns", -1, 1, kMost16);
+    pixels.frames = whole_number(header, kDicomNumberOfFrames, "NumberOfFrames", 1, 1, kMostFrames);
+    const bool is_floating_point = header.pixel_tag != kDicomPixels;
+    const std::int64_t bits = header.pixel_tag == kDicomDoublePixels ? 64 : is_floating_point ? 32 : -1;
+    pixels.allocated = static_cast<int>(whole_number(header, kDicomBitsAllocated, "BitsAllocated", bits, 1, 64));
+    pixels.is_signed = whole_number(header, kDicomPixelRepresentation, "PixelRepresentation", 0, 0, 1) == 1;
     pixels.type = type_of_bits(header, pixels);
     if (is_floating_point) {
         pixels.allocated = pixels.stored = static_cast<int>(bits);
         pixels.high_bit = pixels.stored - 1;
     } else {
-        pixels.stored = static_cast<int>(whole_number(header, kBitsStored, "BitsStored", pixels.allocated, 1, pixels.allocated));
+        pixels.stored = static_cast<int>(whole_number(header, kDicomBitsStored, "BitsStored", pixels.allocated, 1, pixels.allocated));
         pixels.high_bit =
-            static_cast<int>(whole_number(header, kHighBit, "HighBit", pixels.stored - 1, pixels.stored - 1, pixels.allocated - 1));
+            static_cast<int>(whole_number(header, kDicomHighBit, "HighBit", pixels.stored - 1, pixels.stored - 1, pixels.allocated - 1));
     }
     check_syntax(header);
     check_size(header, pixels);

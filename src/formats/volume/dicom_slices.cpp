@@ -11,8 +11,6 @@
 namespace isoatlas {
 namespace {
 
-using namespace dicom;
-
 /// The value of a frame, else the one that all frames share, else that of the file.
 class FrameValues {
 public:
@@ -46,7 +44,7 @@ private:
 double length_of(const Vec3& v) { return std::sqrt(dot_product(v, v)); }
 
 void take_orientation(const DicomHeader& header, const FrameValues& values, DicomSlice& slice) {
-    const auto cosines = values.take<6>(kOrientation, "ImageOrientationPatient");
+    const auto cosines = values.take<6>(kDicomOrientation, "ImageOrientationPatient");
     if (!cosines) return;
     const auto& c = *cosines;
     slice.row = {c[0], c[1], c[2]}, slice.column = {c[3], c[4], c[5]};
@@ -58,9 +56,9 @@ void take_orientation(const DicomHeader& header, const FrameValues& values, Dico
 }
 
 void take_spacing(const DicomHeader& header, const FrameValues& values, DicomSlice& slice) {
-    auto spacing = values.take<2>(kPixelSpacing, "PixelSpacing");
+    auto spacing = values.take<2>(kDicomPixelSpacing, "PixelSpacing");
     if (!spacing) {
-        spacing = values.take<2>(kImagerSpacing, "ImagerPixelSpacing");
+        spacing = values.take<2>(kDicomImagerSpacing, "ImagerPixelSpacing");
         slice.is_detector_spacing = spacing.has_value();
     }
     if (!spacing) return;
@@ -74,8 +72,8 @@ void take_spacing(const DicomHeader& header, const FrameValues& values, DicomSli
 
 void take_scaling(const DicomHeader& header, const FrameValues& values, DicomSlice& slice) {
     constexpr double kMost = 1e30;
-    const double slope = values.number(kSlope).value_or(header.values.number(kDoseScaling).value_or(1));
-    const double intercept = values.number(kIntercept).value_or(0);
+    const double slope = values.number(kDicomSlope).value_or(header.values.number(kDicomDoseScaling).value_or(1));
+    const double intercept = values.number(kDicomIntercept).value_or(0);
     if (std::abs(slope) > 1 / kMost && std::abs(slope) < kMost && std::abs(intercept) < kMost)
         slice.slope = slope, slice.intercept = intercept;
 }
@@ -85,17 +83,21 @@ void take_keys(const FrameValues& values, DicomSlice& slice) {
         const std::string text = values.text(tag);
         return text.empty() ? values.text(other) : text;
     };
-    slice.keys = {
-        first(kTemporalIndex, kTemporalPosition), first(kEffectiveEchoTime, kEchoTime), values.text(kTriggerTime), values.text(kBValue),
-        values.text(kAcquisitionNumber),          values.text(kAcquisitionTime),        values.text(kImageType)};
+    slice.keys = {first(kDicomTemporalIndex, kDicomTemporalPosition),
+                  first(kDicomEffectiveEchoTime, kDicomEchoTime),
+                  values.text(kDicomTriggerTime),
+                  values.text(kDicomBValue),
+                  values.text(kDicomAcquisitionNumber),
+                  values.text(kDicomAcquisitionTime),
+                  values.text(kDicomImageType)};
 }
 
 /// Frames without places of their own lie along the normal: at offsets that the file lists, or at equal distances.
 void place_frames(const DicomHeader& header, std::vector<DicomSlice>& slices) {
     if (slices.size() < 2 || !slices[0].position || !header.frames.empty()) return;
     const Vec3 normal = dicom_normal(slices[0]);
-    const std::optional<std::vector<double>> offsets = header.values.numbers(kFrameOffsets);
-    const std::optional<double> distance = header.values.number(kSpacingBetweenSlices);
+    const std::optional<std::vector<double>> offsets = header.values.numbers(kDicomFrameOffsets);
+    const std::optional<double> distance = header.values.number(kDicomSpacingBetweenSlices);
     const bool has_offsets = offsets && offsets->size() == slices.size();
     if (!has_offsets && !(distance && *distance != 0)) {
         for (DicomSlice& slice : slices) slice.position.reset();
@@ -123,7 +125,7 @@ bool belongs(const DicomGroup& group, const DicomSlice& slice, const std::vector
     const DicomSlice& first = group.slices[0];
     const DicomFile &a = files[first.file], &b = files[slice.file];
     if (!first.position || !slice.position) return first.file == slice.file && !first.position && !slice.position;
-    if (!a.pixels.same_shape(b.pixels) || a.header.values.text(kSeries) != b.header.values.text(kSeries)) return false;
+    if (!a.pixels.same_shape(b.pixels) || a.header.values.text(kDicomSeries) != b.header.values.text(kDicomSeries)) return false;
     constexpr double kSameDirection = 5e-4, kSameSpacing = 1e-3;
     for (std::size_t k = 0; k < 3; ++k) {
         if (std::abs(first.row[k] - slice.row[k]) > kSameDirection || std::abs(first.column[k] - slice.column[k]) > kSameDirection)
@@ -140,9 +142,9 @@ bool belongs(const DicomGroup& group, const DicomSlice& slice, const std::vector
 auto order_of(const DicomGroup& group, const std::vector<DicomFile>& files) {
     const DicomSlice& first = group.slices[0];
     const DicomFile& file = files[first.file];
-    return std::tuple(file.header.values.number(kSeriesNumber).value_or(0), file.header.values.text(kSeries), file.pixels.columns,
+    return std::tuple(file.header.values.number(kDicomSeriesNumber).value_or(0), file.header.values.text(kDicomSeries), file.pixels.columns,
                       file.pixels.rows, file.pixels.type, rounded_orientation(first), first.position.value_or(Vec3{}),
-                      file.header.values.text(kInstance));
+                      file.header.values.text(kDicomInstance));
 }
 
 std::string short_number(double value) {
@@ -192,10 +194,10 @@ std::vector<DicomSlice> dicom_slices(const DicomFile& file, std::size_t number) 
     for (std::int64_t frame = 0; frame < file.pixels.frames; ++frame) {
         const FrameValues values(file.header, static_cast<std::size_t>(frame));
         DicomSlice slice{
-            .file = number, .frame = frame, .position = values.take<3>(kPosition, "ImagePositionPatient"), .spacing = {}, .keys = {}};
+            .file = number, .frame = frame, .position = values.take<3>(kDicomPosition, "ImagePositionPatient"), .spacing = {}, .keys = {}};
         constexpr double kFarthest = 1e9;
         if (slice.position && std::ranges::any_of(*slice.position, [](double place) { return std::abs(place) > kFarthest; }))
-            bad_header(file.header.path, "ImagePositionPatient", "is " + in_quotes(values.text(kPosition)), "a place in mm");
+            bad_header(file.header.path, "ImagePositionPatient", "is " + in_quotes(values.text(kDicomPosition)), "a place in mm");
         take_orientation(file.header, values, slice);
         take_spacing(file.header, values, slice);
         take_scaling(file.header, values, slice);
@@ -224,7 +226,7 @@ std::vector<DicomGroup> dicom_groups(const std::vector<DicomFile>& files) {
             slice.along = slice.position ? dot_product(*slice.position, normal) : static_cast<double>(slice.frame);
     }
     std::ranges::stable_sort(groups, [&](const DicomGroup& a, const DicomGroup& b) { return order_of(a, files) < order_of(b, files); });
-    const auto series = [&](const DicomGroup& group) { return files[group.slices[0].file].header.values.text(kSeries); };
+    const auto series = [&](const DicomGroup& group) { return files[group.slices[0].file].header.values.text(kDicomSeries); };
     for (DicomGroup& group : groups) {
         const auto same = [&](const DicomGroup& other) { return series(other) == series(group); };
         group.word = series(group);
@@ -237,7 +239,7 @@ std::string about_group(const DicomGroup& group, const std::vector<DicomFile>& f
     const DicomSlice& first = group.slices[0];
     const DicomFile& file = files[first.file];
     const std::size_t count = group.slices.size();
-    std::string text = file.header.values.text(kModality);
+    std::string text = file.header.values.text(kDicomModality);
     if (!text.empty()) text += ", ";
     text += std::to_string(count) + (count == 1 ? " slice, " : " slices, ") + std::to_string(file.pixels.columns) + " x " +
             std::to_string(file.pixels.rows);
@@ -248,7 +250,7 @@ std::string about_group(const DicomGroup& group, const std::vector<DicomFile>& f
         text += " mm";
     }
     if (first.position) text += std::string(", ") + name_of_plane(dicom_normal(first));
-    const std::string description = file.header.values.text(kSeriesDescription);
+    const std::string description = file.header.values.text(kDicomSeriesDescription);
     return header_text(description.empty() ? text : text + ", " + description);
 }
 

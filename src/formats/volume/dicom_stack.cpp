@@ -10,8 +10,6 @@
 namespace isoatlas {
 namespace {
 
-using namespace dicom;
-
 constexpr std::size_t kShownPlaces = 5;
 
 std::string short_mm(double value) {
@@ -47,7 +45,7 @@ std::vector<std::size_t> number_places(const std::vector<DicomSlice>& slices) {
 std::size_t drop_copies(std::vector<DicomSlice>& slices, const std::vector<DicomFile>& files) {
     std::map<std::tuple<std::string, std::int64_t, Vec3>, std::array<std::string, kDicomKeys.size()>> seen;
     return std::erase_if(slices, [&](const DicomSlice& slice) {
-        const std::string instance = files[slice.file].header.values.text(kInstance);
+        const std::string instance = files[slice.file].header.values.text(kDicomInstance);
         if (instance.empty() || !slice.position) return false;
         const auto [at, is_new] = seen.try_emplace({instance, slice.frame, *slice.position}, slice.keys);
         return !is_new && at->second == slice.keys;
@@ -103,7 +101,7 @@ void name_times(DicomStack& stack, std::size_t key, const std::vector<DicomFile>
     const std::string name = kDicomKeys[key];
     stack.notes.push_back("the " + std::to_string(stack.steps.size()) + " time steps are the values of " + name);
     constexpr std::size_t kTemporalKey = 0, kLastTime = 2;  // echo and trigger times are in ms
-    const std::optional<double> resolution = files[stack.steps[0][0].file].header.values.number(kTemporalResolution);
+    const std::optional<double> resolution = files[stack.steps[0][0].file].header.values.number(kDicomTemporalResolution);
     for (std::size_t step = 0; step < stack.steps.size(); ++step) {
         std::optional<double> time = parse_number(stack.steps[step][0].keys[key]);
         if (key == kTemporalKey)
