@@ -116,7 +116,7 @@ ZarrImage image_of_group(KeyStore& store, const std::string& path, const ZarrNod
 
 void add_notes(KeyStore& store, const ZarrNode& node, const ZarrImage& image, const std::string& inside, VolumeInfo& info) {
     constexpr std::size_t kMostLabels = 20;
-    constexpr std::int64_t kMostAsked = 1000;
+    const std::int64_t most_asked = store.is_remote() ? 8 : 1000;
     if (const auto& shards = image.array.shards) {
         std::string size;
         for (auto samples = shards->size.rbegin(); samples != shards->size.rend(); ++samples)
@@ -131,12 +131,13 @@ void add_notes(KeyStore& store, const ZarrNode& node, const ZarrImage& image, co
         }
         if (!labels.empty()) info.notes.push_back("labels of the image are datasets of their own: " + labels);
     }
-    const StoredSize size = stored_size(store, image.array, kMostAsked);
+    const StoredSize size = stored_size(store, image.array, most_asked);
     info.file_bytes = size.bytes;
-    if (!size.is_exact) info.notes.push_back("the size on disk is estimated from " + std::to_string(kMostAsked) + " chunks");
+    if (!size.is_exact) info.notes.push_back("the size on disk is estimated from " + std::to_string(most_asked) + " chunks");
 }
 
 bool has_marks(const std::filesystem::path& folder) {
+    if (is_on_server(folder.string())) return is_directory(folder.string());  // a server knows no other folders
     return std::ranges::any_of(kZarrMarks, [&](const char* mark) { return file_exists((folder / mark).string()); });
 }
 
@@ -162,14 +163,16 @@ bool is_zarr_folder(const std::string& path) { return has_marks(path); }
 
 std::unique_ptr<VolumeReader> open_zarr_folder(const std::string& path, const OpenOptions& options) {
     constexpr int kFarthest = 16;
-    std::filesystem::path root = file_system().resolved(path);
+    std::string whole = file_system().resolved(path);
+    while (is_on_server(whole) && whole.ends_with('/')) whole.pop_back();
+    std::filesystem::path root = whole;
     std::string inside;
     for (int i = 0; i < kFarthest && root.has_parent_path() && root != root.parent_path() && has_marks(root.parent_path()); ++i) {
         inside = join_key(root.filename().string(), inside);
         if (inside.ends_with('/')) inside.pop_back();
         root = root.parent_path();
     }
-    return open_zarr_store(open_folder_store(inside.empty() ? path : root.string(), options.follow_links), path, inside, options);
+    return open_zarr_store(open_folder_store(inside.empty() && !is_on_server(path) ? path : root.string(), options.follow_links), path, inside, options);
 }
 
 bool looks_like_zip(FirstBytes first, const std::string& path) {

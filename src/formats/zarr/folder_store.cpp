@@ -1,6 +1,7 @@
 // A Zarr hierarchy in a folder: every key is a file.
 #include <algorithm>
 #include <cerrno>
+#include <utility>
 
 #include "formats/common/file_access.h"
 #include "formats/common/natural_order.h"
@@ -39,11 +40,14 @@ public:
     }
 
     std::optional<std::vector<std::string>> list(const std::string& folder, std::size_t most) override {
+        if (is_remote()) return std::nullopt;
         if (!folder.empty()) require_sound_key(*this, folder);
         std::vector<std::string> names = directory_entries(path_of(folder), most);
         std::ranges::sort(names, natural_less);
         return names;
     }
+
+    bool is_remote() const override { return is_on_server(name()); }
 
 private:
     std::string path_of(const std::string& key) const { return key.empty() ? name() : name() + "/" + key; }
@@ -54,14 +58,28 @@ private:
         if (file_ && key == key_) return true;
         file_.reset();
         const std::string path = path_of(key);
+        if (!(is_remote() ? open_on_server(path) : open_in_folder(path))) return false;
+        key_ = key, path_ = path;
+        return true;
+    }
+
+    bool open_in_folder(const std::string& path) {
         const FileStatus status = file_system().status(path);
         const bool is_absent =
             status.kind == FileStatus::Kind::missing && (status.error == 0 || status.error == -ENOENT || status.error == -ENOTDIR);
         if (is_absent || status.kind == FileStatus::Kind::folder) return false;
         if (!follow_links_) require_inside(name(), path, "a part of the Zarr hierarchy is a link to a file");
         file_ = open_file(path);
-        key_ = key, path_ = path;
         return true;
+    }
+
+    /// Without the status that open_file() asks for: on a server that is more requests. What is not "no such file" throws, or a chunk that
+    /// a broken connection hides would be one that was never written.
+    bool open_on_server(const std::string& path) {
+        OpenedFile opened = file_system().open(path);
+        if (!opened.file && opened.error != -ENOENT) bad_zarr(*this, path, "cannot be opened", "a file", "check the connection, and try again");
+        file_ = std::move(opened.file);
+        return file_ != nullptr;
     }
 
     bool follow_links_;

@@ -31,6 +31,8 @@ public:
     [[nodiscard]] virtual std::optional<std::vector<std::string>> list(const std::string& folder, std::size_t most) = 0;
     /// Bytes of the whole store, where they are known without asking for every value.
     [[nodiscard]] virtual std::optional<std::int64_t> bytes() { return std::nullopt; }
+    /// Every question about a key is a request to a server.
+    [[nodiscard]] virtual bool is_remote() const { return false; }
     /// For messages.
     [[nodiscard]] const std::string& name() const { return name_; }
 
@@ -45,7 +47,10 @@ void require_sound_key(const KeyStore& store, const std::string& key);
 /// "a/b", or "b" below the root.
 [[nodiscard]] std::string join_key(const std::string& folder, const std::string& name);
 
-/// A folder of files. Links that lead out of it are refused, unless follow_links. The folder need not exist.
+/// http:// or https://.
+[[nodiscard]] bool is_on_server(const std::string& path);
+/// A folder of files, or an address that keys are appended to. Links that lead out of a folder are refused, unless follow_links. The folder
+/// need not exist. A server is not listed; a key costs one request, whether it is there or not.
 [[nodiscard]] std::unique_ptr<KeyStore> open_folder_store(const std::string& folder, bool follow_links);
 /// The entries of a zip archive (zip64, too), stored or deflated; nothing is unpacked to the disk. Where all of them lie in one folder,
 /// that is the root. Throws Error: input (damaged), as open_file(). Memory: the list of entries.

@@ -104,7 +104,9 @@ TEST(OmeZarr, DatasetsInside) {
             EXPECT_EQ(volume.info.type, ValueType::u8) << one;
             EXPECT_EQ(volume.info.geometry.spacing, (Vec3{0.25, 0.5, 2})) << one;
         }
-        const VolumeInfo info = open_volume(path, {.time_step = 0, .channel = "0"})->info();
+        OpenOptions first;
+        first.time_step = 0, first.channel = "0";
+        const VolumeInfo info = open_volume(path, first)->info();
         EXPECT_TRUE(
             std::ranges::any_of(info.notes, [](const std::string& note) { return note.find("/labels/nuclei") != std::string::npos; }));
         expect_helpful(failure_of_loading(path + ":/labels/nucleus", options), ErrorKind::usage, "nucleus");
@@ -190,13 +192,15 @@ TEST(OmeZarr, NamedAxesOfPlainArrays) {
     const Layout two{.shape = {2, 3, 4, 5},
                      .chunk = {2, 3, 2, 2},
                      .attributes = R"({"_ARRAY_DIMENSIONS":["c","z","y","x"],"scale_factor":0.5,"add_offset":-3,"units":"K"})"};
-    const VolumeInfo info = open_volume(test::folder_of(folder, "two", test::array_keys(two)), {.channel = "1"})->info();
+    OpenOptions second_channel, second_step;
+    second_channel.channel = "1", second_step.time_step = 1;
+    const VolumeInfo info = open_volume(test::folder_of(folder, "two", test::array_keys(two)), second_channel)->info();
     EXPECT_EQ(info.extent, (Extent{3, {5, 4, 3}}));
     EXPECT_EQ(info.calibration.slope, 0.5);
     EXPECT_EQ(info.calibration.intercept, -3);
     EXPECT_EQ(info.value_unit, "K");
     const Layout three{.version = 3, .shape = {2, 3, 4}, .chunk = {2, 3, 2}, .dimension_names = R"(["t","y","x"])"};
-    EXPECT_EQ(open_volume(test::folder_of(folder, "three", test::array_keys(three)), {.time_step = 1})->info().extent,
+    EXPECT_EQ(open_volume(test::folder_of(folder, "three", test::array_keys(three)), second_step)->info().extent,
               (Extent{2, {4, 3, 1}}));
     const Layout other{.version = 3, .shape = {2, 3, 4}, .chunk = {2, 3, 2}, .dimension_names = R"(["lat",null,"x"])"};
     EXPECT_EQ(open_volume(test::folder_of(folder, "other", test::array_keys(other)))->info().extent, (Extent{3, {4, 3, 2}}));

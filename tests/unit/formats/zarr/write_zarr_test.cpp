@@ -7,6 +7,7 @@
 #include "formats/zarr/folder_output.h"
 #include "isoatlas/output.h"
 #include "isoatlas/segmentation.h"
+#include "isoatlas/sink.h"
 #include "unit/formats/zarr/zarr_files.h"
 
 namespace isoatlas {
@@ -61,7 +62,9 @@ TEST(WriteZarr, LevelsAreMeans) {
     write_volume(folder / "v.zarr", volume);
     const VolumeInfo info = open_volume(folder / "v.zarr")->info();
     EXPECT_EQ(info.volumes.levels, (std::vector<Index3>{{300, 3, 2}, {150, 2, 1}, {75, 1, 1}}));
-    const Volume half = load_volume(folder / "v.zarr", {.level = 1});
+    OpenOptions second_level;
+    second_level.level = 1;
+    const Volume half = load_volume(folder / "v.zarr", second_level);
     EXPECT_EQ(half.info.geometry.spacing, (Vec3{2, 2, 2}));
     EXPECT_EQ(half.info.geometry.origin, (Vec3{0.5, 0.5, 0.5}));
     for (std::int64_t x = 0; x < 150; ++x) {

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <random>
 
+#include "base/memory_limit.h"
 #include "formats/zarr/codecs.h"
 #include "unit/formats/zarr/zarr_files.h"
 
@@ -280,6 +281,32 @@ TEST(Zarr, DamagedArchives) {
     for (const auto& [key, value] : test::array_keys({})) nested["image.zarr/" + key] = value;
     EXPECT_EQ(test::text_of_bytes(load_volume(folder.write("nested.zip", test::zip_of(nested)))), test::expected_samples({}, {}));
 }
+
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)  // which take memory of their own
+TEST(Zarr, SlabsTakeLittleMemory) {
+    constexpr std::int64_t kSize = 512, kChunk = 64, kMost = std::int64_t{256} << 20;
+    const test::TestFolder folder;
+    std::vector<float> chunk(kChunk * kChunk * kChunk);
+    for (std::size_t i = 0; i < chunk.size(); ++i) chunk[i] = static_cast<float>(i % 1000);
+    const std::vector<std::byte> packed = encode_blosc(std::as_bytes(std::span(chunk)), sizeof(float));
+    const std::string value(reinterpret_cast<const char*>(packed.data()), packed.size());
+    Keys keys{{".zarray",
+               R"({"zarr_format":2,"shape":[512,512,512],"chunks":[64,64,64],"dtype":"<f4","order":"C","filters":null,)"
+               R"("fill_value":0,"compressor":{"id":"blosc"}})"}};
+    test::for_each_index({kSize / kChunk, kSize / kChunk, kSize / kChunk}, [&](const Sizes& at) {
+        keys[std::to_string(at[0]) + "." + std::to_string(at[1]) + "." + std::to_string(at[2])] = value;
+    });
+    const auto reader = open_volume(test::folder_of(folder, "v", keys));
+    keys.clear();
+    std::vector<float> slice(kSize * kSize);
+    const std::int64_t before = peak_memory();
+    for (std::int64_t z = 0; z < kSize; ++z) {
+        reader->read_box({{0, 0, z}, {kSize, kSize, z + 1}}, std::as_writable_bytes(std::span(slice)));
+        ASSERT_EQ(slice[kSize * 65 + 66], chunk[static_cast<std::size_t>((z % kChunk) * kChunk * kChunk + kChunk + 2)]);
+    }
+    EXPECT_LE(peak_memory() - before, kMost);
+}
+#endif
 
 }  // namespace
 }  // namespace isoatlas
