@@ -28,6 +28,7 @@ bool put_integer(Number number, ZarrArray& array) {
 
 template <class Number>
 bool put_number(Number number, ZarrArray& array) {
+    if (array.type.kind == ZarrType::Kind::boolean) return put_value(static_cast<std::uint8_t>(number != 0 ? 1 : 0), array), true;
     switch (array.type.type) {
         case ValueType::u8: return put_integer<std::uint8_t>(number, array);
         case ValueType::i8: return put_integer<std::int8_t>(number, array);

@@ -45,7 +45,9 @@ TEST(WriteZarr, EveryTypeComesBack) {
             const Volume back = load_volume(path);
             EXPECT_EQ(back.info.extent, extent);
             EXPECT_EQ(back.info.type, type);
-            EXPECT_EQ(back.info.geometry, volume.info.geometry);
+            Geometry kept = volume.info.geometry;
+            if (extent.rank == 2) kept.spacing[2] = 1, kept.origin[2] = 0;  // an image has no axis z
+            EXPECT_EQ(back.info.geometry, kept);
             EXPECT_EQ(back.info.calibration, volume.info.calibration);
             EXPECT_EQ(back.info.value_unit, "HU");
             EXPECT_EQ(back.info.description, "told");
