@@ -37,8 +37,6 @@ constexpr int kMostRedirects = 5;
 }
 
 [[noreturn]] void refused(const Address& address, int status, bool has_token) {
-    if (status == 404 || status == 410)
-        fail(address, "there is no such file on the server (" + std::to_string(status) + ")", "check the address");
     if (status == 401 || status == 403) {
         fail(address, "the server does not give this file (" + std::to_string(status) + ")",
              has_token ? "check the token: it may have expired" : "if the server takes a bearer token, give it one",
@@ -261,6 +259,7 @@ std::shared_ptr<File> open_now(const std::shared_ptr<RemoteShared>& shared, cons
         answer.status = 200, answer.total = 0, answer.problem.clear();
         answer.body.clear();
     }
+    if (answer.status == 404 || answer.status == 410) return nullptr;
     if (!answer.problem.empty()) no_answer(address, answer);
     if (answer.status == 200 && answer.total != std::ssize(answer.body)) no_ranges(address, answer.total);
     if (answer.status != 200 && answer.status != 206) refused(address, answer.status, !shared->options.token.empty());
@@ -276,6 +275,7 @@ std::unique_ptr<File> open_remote_file(const std::shared_ptr<RemoteShared>& shar
     std::shared_ptr<File> file = shared->recent.find(given);
     if (file == nullptr) {
         file = open_now(shared, given);
+        if (file == nullptr) return nullptr;
         shared->recent.add(given, file);
     }
     return std::make_unique<SharedFile>(std::move(file));

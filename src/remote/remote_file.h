@@ -47,6 +47,7 @@ struct RemoteShared {
 
 /// Opens an address. `given`: for messages. The file throws Error{input} itself, where files of this machine return numbers below zero;
 /// only File::read_nowait() never does. Throws Error: input (see remote.h), usage (not an address).
+/// Null: there is no such file on the server (404, 410).
 [[nodiscard]] std::unique_ptr<File> open_remote_file(const std::shared_ptr<RemoteShared>& shared, const std::string& given);
 
 /// Is there an answer of success at the address? false also where the server does not answer.

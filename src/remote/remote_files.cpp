@@ -47,7 +47,10 @@ public:
         return is_address(path) ? status(path) : system_files().status_of_name(path);
     }
     OpenedFile open(const std::string& path) override {
-        return is_address(path) ? OpenedFile{open_remote_file(shared(), path), 0} : system_files().open(path);
+        if (!is_address(path)) return system_files().open(path);
+        std::unique_ptr<File> file = open_remote_file(shared(), path);
+        const int error = file == nullptr ? -ENOENT : 0;
+        return {std::move(file), error};
     }
     std::string link(const std::string& path) override { return is_address(path) ? std::string() : system_files().link(path); }
     std::string resolved(const std::string& path) override { return is_address(path) ? path : system_files().resolved(path); }

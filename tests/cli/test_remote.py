@@ -198,7 +198,7 @@ class Remote(CliTest):
     def test_what_cannot_be_opened(self):
         with FileServer(self.folder) as server:
             gone = server.address
-            self.run_error(3, "info", f"{gone}/none.nrrd", says="there is no such file on the server (404)")
+            self.run_error(3, "info", f"{gone}/none.nrrd", says="there is no such file on the server")
             self.run_error(3, "info", gone.replace("http:", "https:") + "/field.nrrd", says="no answer")
         self.run_error(3, "info", f"{gone}/field.nrrd", says="no answer")
         error = self.run_error(2, "info", "https://me:s3cret@localhost/field.nrrd", says="user name", next_says="ISOATLAS_BEARER_TOKEN")

@@ -10,6 +10,8 @@ namespace isoatlas {
 namespace {
 
 [[noreturn]] void cannot_open(const std::string& path, int error) {
+    if (is_address(path) && error == -ENOENT)
+        throw Error(ErrorKind::input, {.file = path, .what = "there is no such file on the server", .next = "check the address"});
     const char* next = error == -EACCES ? "give yourself permission to read the file" : "check the path";
     throw Error(ErrorKind::input, {.file = path, .what = std::string("cannot be opened: ") + std::strerror(-error), .next = next});
 }

@@ -137,7 +137,7 @@ void add_notes(KeyStore& store, const ZarrNode& node, const ZarrImage& image, co
 }
 
 bool has_marks(const std::filesystem::path& folder) {
-    if (is_on_server(folder.string())) return is_directory(folder.string());  // a server knows no other folders
+    if (is_address(folder.string())) return is_directory(folder.string());  // a server knows no other folders
     return std::ranges::any_of(kZarrMarks, [&](const char* mark) { return file_exists((folder / mark).string()); });
 }
 
@@ -164,7 +164,7 @@ bool is_zarr_folder(const std::string& path) { return has_marks(path); }
 std::unique_ptr<VolumeReader> open_zarr_folder(const std::string& path, const OpenOptions& options) {
     constexpr int kFarthest = 16;
     std::string whole = file_system().resolved(path);
-    while (is_on_server(whole) && whole.ends_with('/')) whole.pop_back();
+    while (is_address(whole) && whole.ends_with('/')) whole.pop_back();
     std::filesystem::path root = whole;
     std::string inside;
     for (int i = 0; i < kFarthest && root.has_parent_path() && root != root.parent_path() && has_marks(root.parent_path()); ++i) {
@@ -172,7 +172,7 @@ std::unique_ptr<VolumeReader> open_zarr_folder(const std::string& path, const Op
         if (inside.ends_with('/')) inside.pop_back();
         root = root.parent_path();
     }
-    return open_zarr_store(open_folder_store(inside.empty() && !is_on_server(path) ? path : root.string(), options.follow_links), path, inside, options);
+    return open_zarr_store(open_folder_store(inside.empty() && !is_address(path) ? path : root.string(), options.follow_links), path, inside, options);
 }
 
 bool looks_like_zip(FirstBytes first, const std::string& path) {

@@ -47,7 +47,7 @@ public:
         return names;
     }
 
-    bool is_remote() const override { return is_on_server(name()); }
+    bool is_remote() const override { return is_address(name()); }
 
 private:
     std::string path_of(const std::string& key) const { return key.empty() ? name() : name() + "/" + key; }

@@ -23,8 +23,6 @@ void require_sound_key(const KeyStore& store, const std::string& key) {
     bad_zarr(store, key, "the path leads out of the Zarr hierarchy, or is empty", "names joined by \"/\", without \"..\"");
 }
 
-bool is_on_server(const std::string& path) { return path.starts_with("http://") || path.starts_with("https://"); }
-
 std::string join_key(const std::string& folder, const std::string& name) { return folder.empty() ? name : folder + "/" + name; }
 
 }  // namespace isoatlas

@@ -47,8 +47,6 @@ void require_sound_key(const KeyStore& store, const std::string& key);
 /// "a/b", or "b" below the root.
 [[nodiscard]] std::string join_key(const std::string& folder, const std::string& name);
 
-/// http:// or https://.
-[[nodiscard]] bool is_on_server(const std::string& path);
 /// A folder of files, or an address that keys are appended to. Links that lead out of a folder are refused, unless follow_links. The folder
 /// need not exist. A server is not listed; a key costs one request, whether it is there or not.
 [[nodiscard]] std::unique_ptr<KeyStore> open_folder_store(const std::string& folder, bool follow_links);

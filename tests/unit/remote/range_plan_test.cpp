@@ -38,7 +38,9 @@ void expect_sound(const std::vector<FileRange>& requests, const std::vector<File
     for (std::size_t i = 0; i < requests.size(); ++i) {
         EXPECT_GT(requests[i].bytes(), 0);
         EXPECT_LE(requests[i].bytes(), kLongestRequest);
-        if (i > 0) EXPECT_GE(requests[i].begin, requests[i - 1].end);
+        if (i > 0) {
+            EXPECT_GE(requests[i].begin, requests[i - 1].end);
+        }
     }
     for (const FileRange& range : wanted) EXPECT_TRUE(covers(requests, range)) << range.begin << " to " << range.end;
 }
