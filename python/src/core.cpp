@@ -1,11 +1,9 @@
 #include "core.h"
 
-#include <cstdlib>
-
 #include <isoatlas/array.h>
-#include <isoatlas/remote.h>
 #include <isoatlas/version.h>
 
+#include "addresses.h"
 #include "call.h"
 #include "errors.h"
 
@@ -22,17 +20,6 @@ void add_calls(py::module_& module) {
 }
 
 }  // namespace isoatlas::python
-
-namespace {
-
-/// https:// addresses wherever a path of a file to read is taken.
-void read_addresses() {
-    isoatlas::RemoteOptions options;
-    if (const char* token = std::getenv("ISOATLAS_BEARER_TOKEN")) options.token = token;
-    isoatlas::use_remote_files(options);
-}
-
-}  // namespace
 
 PYBIND11_MODULE(_core, module) {
     using namespace isoatlas::python;

@@ -7,6 +7,7 @@
 
 #include <isoatlas/server.h>
 
+#include "addresses.h"
 #include "call.h"
 #include "errors.h"
 #include "source.h"
@@ -53,6 +54,7 @@ PYBIND11_MODULE(_serve, module) {
     using isoatlas::python::Viewer;
     py::module_::import("isoatlas._core");
     isoatlas::python::translate_exceptions();
+    isoatlas::python::read_addresses();
     const auto released = py::call_guard<py::gil_scoped_release>();
     module.def("check_has_viewer", &isoatlas::check_has_viewer);
     py::class_<Viewer>(module, "Viewer")

@@ -17,7 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::int64_t kPieceBytes = std::int64_t{1} << 20;  ///< at most
+constexpr std::int64_t kKeptBytes = std::int64_t{1} << 20;  ///< at most
 constexpr std::size_t kSumBytes = 8;
 constexpr double kKept = 0.8;  ///< of the budget, after pieces were removed
 constexpr std::size_t kMostPieces = 100000;
@@ -36,7 +36,7 @@ std::optional<FileRange> range_of(const std::string& name) {
     const auto [dash, first_error] = std::from_chars(name.data(), last, range.begin);
     if (first_error != std::errc() || dash == last || *dash != '-') return std::nullopt;
     const auto [end, second_error] = std::from_chars(dash + 1, last, range.end);
-    if (second_error != std::errc() || end != last || range.begin < 0 || range.bytes() < 1 || range.bytes() > kPieceBytes)
+    if (second_error != std::errc() || end != last || range.begin < 0 || range.bytes() < 1 || range.bytes() > kKeptBytes)
         return std::nullopt;
     return range;
 }
@@ -110,7 +110,7 @@ CachedVersion DiskCache::open(const std::string& identity) const {
 std::int64_t DiskCache::load(CachedVersion& version, const FileRange& range,
                              const std::function<void(std::int64_t, std::span<const std::byte>)>& take) const {
     std::int64_t loaded = 0;
-    auto piece = version.ends.upper_bound(range.begin - kPieceBytes);
+    auto piece = version.ends.upper_bound(range.begin - kKeptBytes);
     while (piece != version.ends.end() && piece->first < range.end) {
         const FileRange there{piece->first, piece->second};
         if (there.end <= range.begin) {
@@ -137,8 +137,8 @@ void DiskCache::store(CachedVersion& version, std::int64_t begin, std::span<cons
     if (version.folder.empty()) return;
     std::error_code ignored;
     if (fs::create_directories(version.folder, ignored)) fs::permissions(folder_, fs::perms::owner_all, ignored);
-    for (std::size_t done = 0; done < bytes.size(); done += static_cast<std::size_t>(kPieceBytes)) {
-        const auto part = bytes.subspan(done, std::min(static_cast<std::size_t>(kPieceBytes), bytes.size() - done));
+    for (std::size_t done = 0; done < bytes.size(); done += static_cast<std::size_t>(kKeptBytes)) {
+        const auto part = bytes.subspan(done, std::min(static_cast<std::size_t>(kKeptBytes), bytes.size() - done));
         const FileRange range{begin + static_cast<std::int64_t>(done), begin + static_cast<std::int64_t>(done + part.size())};
         if (!write_piece(version.folder + "/" + name_of(range), part)) return;
         std::int64_t& end = version.ends[range.begin];

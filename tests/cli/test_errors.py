@@ -127,7 +127,7 @@ class Errors(CliTest):
     # 4: unsupported
 
     def test_unknown_formats(self):
-        (self.folder / "notes.docx").write_bytes(b"PK\x03\x04" + bytes(range(256)))
+        (self.folder / "notes.docx").write_bytes(b"\xd0\xcf\x11\xe0" + bytes(range(256)))
         self.run_error(4, "info", "notes.docx", says="notes.docx")
         (self.folder / "complex.npy").write_bytes(
             b"\x93NUMPY\x01\x00v\x00" + b"{'descr': '<c8', 'fortran_order': False, 'shape': (2, 2, 2), }".ljust(117) + b"\n" + bytes(64))

@@ -121,6 +121,8 @@ def test_user_block_as_matlab_writes_it(tmp_path):
         with h5py.File(tmp_path / "v.mat", "w", userblock_size=block) as file:
             file["v"] = array
             file["v"].attrs["MATLAB_class"] = np.bytes_("double")
+        with open(tmp_path / "v.mat", "r+b") as file:  # a text, room for a subsystem, version and byte order
+            file.write(b"MATLAB 7.3 MAT-file, Platform: GLNXA64".ljust(116) + bytes(8) + b"\x00\x02IM")
         assert np.array_equal(read(tmp_path / "v.mat").volume, array)
 
 

@@ -104,7 +104,7 @@ def test_zip_archives(compression, tmp_path):
         group.array("second", array + 1)
     expect(f"{tmp_path}/g.zip:/a/first", array)
     expect(f"{tmp_path}/g.zip:/second", array + 1)
-    with pytest.raises(isoatlas.UsageError, match="/a/first"):
+    with pytest.raises(isoatlas.InputError, match="/a/first"):
         isoatlas.open(tmp_path / "g.zip")
 
 

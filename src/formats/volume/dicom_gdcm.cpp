@@ -66,7 +66,7 @@ std::string decode_with_gdcm(const std::string& path, const std::string& syntax,
                 {.file = path,
                  .what = "the pictures are compressed by " + name_of_syntax(syntax) + ", which this build cannot decode",
                  .expected = "a build with GDCM",
-                 .next = "install the package libgdcm-dev and build again, or decompress the files with gdcmconv --raw",
+                 .next = "install the package libgdcm-dev and build again, or decompress the files with gdcmconv",
                  .reason = Reason::built_without_format,
                  .value = "GDCM"});
 }

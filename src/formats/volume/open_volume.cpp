@@ -103,7 +103,8 @@ bool has_extension(const std::string& path, const ReadFormat& format) {
     }
     for (const ReadFormat& format : kReadFormats) {
         for (const std::string_view known : split_words(format.extensions)) {
-            if (extension.size() > 1 && edit_distance(extension, known) == 1) nearest = known;
+            const bool is_guess = reason == Reason::unknown_format && extension.size() > 1;
+            if (is_guess && edit_distance(extension, known) == 1) nearest = known;
         }
     }
     if (!nearest.empty()) next = "did you mean " + nearest + "? " + next;

@@ -45,7 +45,7 @@ void write_ome_zarr(const std::string& path, const Volume& volume) {
     const Json channel{{"label", "values"}, {"color", "FFFFFF"}, {"active", true}, {"window", window_of(volume)}};
     attributes["omero"] = {{"version", "0.4"}, {"channels", Json::array({channel})}, {"rdefs", {{"model", "greyscale"}}}};
     attributes["isoatlas"] = zarr_remainder(volume.info);
-    folder.put(".zattrs", attributes.dump(1, ' ', false, Json::error_handler_t::replace));
+    folder.put(".zattrs", attributes.dump(1, ' ', true, Json::error_handler_t::replace));
     folder.commit();
 }
 

@@ -60,7 +60,7 @@ std::vector<std::byte> label_bytes(std::span<const std::uint32_t> labels, ValueT
     return bytes;
 }
 
-std::string text_of(const Json& json) { return json.dump(1, ' ', false, Json::error_handler_t::replace); }
+std::string text_of(const Json& json) { return json.dump(1, ' ', true, Json::error_handler_t::replace); }
 
 /// Writes the group of labels below `prefix` ("" or "labels/NAME/").
 void write_label_group(FolderOutput& folder, const std::string& prefix, const std::string& name, std::span<const std::uint32_t> labels,

@@ -8,7 +8,7 @@ namespace isoatlas {
 namespace {
 
 TEST(Addresses, PartsAndWhatIsShown) {
-    const Address address = parse_address("https://Example.org:8443/a%20b/c.atlas?signature=x#top");
+    const Address address = parse_address("https://example.org:8443/a%20b/c.atlas?signature=x#top");
     EXPECT_EQ(address.host, "example.org");
     EXPECT_EQ(address.port, "8443");
     EXPECT_EQ(shown(address), "https://example.org:8443/a%20b/c.atlas");
