@@ -17,9 +17,11 @@ std::string describe(const ErrorText& text) {
     return shown_name(line);  // a path may hold any byte
 }
 
-const char* name_of(Reason reason) {
+namespace {
+
+/// Of what a file is, and which part of it is read; nullptr: another reason.
+const char* name_of_input(Reason reason) {
     switch (reason) {
-        case Reason::none: return "none";
         case Reason::raw_layout_unknown: return "raw_layout_unknown";
         case Reason::raw_has_header: return "raw_has_header";
         case Reason::raw_type_differs: return "raw_type_differs";
@@ -57,6 +59,13 @@ const char* name_of(Reason reason) {
         case Reason::address_token_needed: return "address_token_needed";
         case Reason::address_token_refused: return "address_token_refused";
         case Reason::address_with_password: return "address_with_password";
+        default: return nullptr;
+    }
+}
+
+/// Of samples, stores, resources and servers.
+const char* name_of_others(Reason reason) {
+    switch (reason) {
         case Reason::missing_samples: return "missing_samples";
         case Reason::only_missing_samples: return "only_missing_samples";
         case Reason::replacement_not_stored: return "replacement_not_stored";
@@ -90,8 +99,15 @@ const char* name_of(Reason reason) {
         case Reason::not_in_space: return "not_in_space";
         case Reason::built_without_web: return "built_without_web";
         case Reason::bug: return "bug";
+        default: return "none";
     }
-    return "none";
+}
+
+}  // namespace
+
+const char* name_of(Reason reason) {
+    const char* name = name_of_input(reason);
+    return name != nullptr ? name : name_of_others(reason);
 }
 
 std::optional<Reason> reason_of(std::string_view name) {

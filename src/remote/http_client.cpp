@@ -35,7 +35,7 @@ public:
     Connections& operator=(const Connections&) = delete;
 
     /// Runs all transfers to their end.
-    void run(std::span<const std::unique_ptr<Transfer>> transfers) {
+    void run(std::span<const std::unique_ptr<HttpTransfer>> transfers) {
         const Added added(multi_, transfers);
         for (int running = 1; running > 0;) {
             stop_if_cancelled();
@@ -55,7 +55,7 @@ public:
 
 private:
     struct Added {
-        Added(CURLM* multi, std::span<const std::unique_ptr<Transfer>> all) : multi_(multi), transfers_(all) {
+        Added(CURLM* multi, std::span<const std::unique_ptr<HttpTransfer>> all) : multi_(multi), transfers_(all) {
             for (const auto& transfer : transfers_) curl_multi_add_handle(multi_, transfer->handle());
         }
         ~Added() {
@@ -66,7 +66,7 @@ private:
 
     private:
         CURLM* multi_;
-        std::span<const std::unique_ptr<Transfer>> transfers_;
+        std::span<const std::unique_ptr<HttpTransfer>> transfers_;
     };
 
     void collect() {
@@ -74,7 +74,7 @@ private:
         while (const CURLMsg* message = curl_multi_info_read(multi_, &left)) {
             char* self = nullptr;
             curl_easy_getinfo(message->easy_handle, CURLINFO_PRIVATE, &self);
-            reinterpret_cast<Transfer*>(self)->finish(message->data.result);
+            reinterpret_cast<HttpTransfer*>(self)->finish(message->data.result);
         }
     }
 
@@ -131,8 +131,8 @@ std::vector<HttpAnswer> HttpClient::get(const Address& address, std::span<const 
     for (std::size_t i = 0; i < open.size(); ++i) open[i] = i;
     double pause = kFirstPause;
     for (int attempt = 1; !open.empty(); ++attempt) {
-        std::vector<std::unique_ptr<Transfer>> transfers;
-        for (const std::size_t i : open) transfers.push_back(std::make_unique<Transfer>(address, ranges[i], max_whole, options_));
+        std::vector<std::unique_ptr<HttpTransfer>> transfers;
+        for (const std::size_t i : open) transfers.push_back(std::make_unique<HttpTransfer>(address, ranges[i], max_whole, options_));
         lease.connections->run(transfers);
         std::vector<std::size_t> again;
         std::int64_t bytes = 0;

@@ -263,8 +263,7 @@ std::shared_ptr<File> open_now(const std::shared_ptr<RemoteShared>& shared, cons
     if (!answer.problem.empty()) no_answer(address, answer);
     if (answer.status == 200 && answer.total != std::ssize(answer.body)) no_ranges(address, answer.total);
     if (answer.status != 200 && answer.status != 206) refused(address, answer.status, !shared->options.token.empty());
-    if (answer.total < 0)
-        fail(address, "the server does not say how long the file is", "download it and open the copy");
+    if (answer.total < 0) fail(address, "the server does not say how long the file is", "download it and open the copy");
     Version version{answer.etag, answer.last_modified, answer.total};
     return std::make_shared<RemoteFile>(shared, std::move(address), std::move(version), answer);
 }

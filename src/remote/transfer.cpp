@@ -82,7 +82,7 @@ bool is_covered(const FileRange& range, std::vector<AnswerPart> parts) {
 
 }  // namespace
 
-Transfer::Transfer(const Address& address, RangeSet ranges, std::int64_t max_whole, const RemoteOptions& options)
+HttpTransfer::HttpTransfer(const Address& address, RangeSet ranges, std::int64_t max_whole, const RemoteOptions& options)
     : handle_(curl_easy_init()), ranges_(std::move(ranges)), max_whole_(max_whole) {
     const auto set = [this](CURLoption option, auto value) { curl_easy_setopt(handle_, option, value); };
     std::string bytes;
@@ -99,9 +99,9 @@ Transfer::Transfer(const Address& address, RangeSet ranges, std::int64_t max_who
     set(CURLOPT_LOW_SPEED_TIME, std::max(1L, static_cast<long>(options.timeout)));
     set(CURLOPT_USERAGENT, "isoatlas/" ISOATLAS_VERSION);
     set(CURLOPT_ERRORBUFFER, static_cast<char*>(message_));
-    set(CURLOPT_HEADERFUNCTION, &Transfer::on_header);
+    set(CURLOPT_HEADERFUNCTION, &HttpTransfer::on_header);
     set(CURLOPT_HEADERDATA, static_cast<void*>(this));
-    set(CURLOPT_WRITEFUNCTION, &Transfer::on_body);
+    set(CURLOPT_WRITEFUNCTION, &HttpTransfer::on_body);
     set(CURLOPT_WRITEDATA, static_cast<void*>(this));
     set(CURLOPT_PRIVATE, static_cast<void*>(this));
     if (!options.certificates.empty()) set(CURLOPT_CAINFO, options.certificates.c_str());
@@ -110,21 +110,21 @@ Transfer::Transfer(const Address& address, RangeSet ranges, std::int64_t max_who
     set(CURLOPT_HTTPHEADER, headers_);
 }
 
-Transfer::~Transfer() {
+HttpTransfer::~HttpTransfer() {
     curl_easy_cleanup(handle_);
     curl_slist_free_all(headers_);
 }
 
-std::size_t Transfer::on_header(char* text, std::size_t size, std::size_t count, void* self) {
-    static_cast<Transfer*>(self)->take_header(std::string(text, size * count));
+std::size_t HttpTransfer::on_header(char* text, std::size_t size, std::size_t count, void* self) {
+    static_cast<HttpTransfer*>(self)->take_header(std::string(text, size * count));
     return size * count;
 }
 
-std::size_t Transfer::on_body(char* bytes, std::size_t size, std::size_t count, void* self) {
-    return static_cast<Transfer*>(self)->take_body(bytes, size * count) ? size * count : 0;
+std::size_t HttpTransfer::on_body(char* bytes, std::size_t size, std::size_t count, void* self) {
+    return static_cast<HttpTransfer*>(self)->take_body(bytes, size * count) ? size * count : 0;
 }
 
-void Transfer::take_header(std::string line) {
+void HttpTransfer::take_header(std::string line) {
     while (!line.empty() && (line.back() == '\n' || line.back() == '\r' || line.back() == ' ')) line.pop_back();
     if (line.starts_with("HTTP/")) {  // of the next answer, after one of 1xx
         answer_ = {};
@@ -146,7 +146,7 @@ void Transfer::take_header(std::string line) {
     if (name == "retry-after") retry_after_ = static_cast<double>(number_of(value).value_or(0));
 }
 
-std::int64_t Transfer::most_bytes(long status) const {
+std::int64_t HttpTransfer::most_bytes(long status) const {
     if (status == 200) return max_whole_;
     if (status != 206) return kMostErrorBody;
     std::int64_t bytes = 0;
@@ -154,7 +154,7 @@ std::int64_t Transfer::most_bytes(long status) const {
     return bytes;
 }
 
-bool Transfer::take_body(const char* bytes, std::size_t count) {
+bool HttpTransfer::take_body(const char* bytes, std::size_t count) {
     long status = 0;
     curl_easy_getinfo(handle_, CURLINFO_RESPONSE_CODE, &status);
     received_ += static_cast<std::int64_t>(count);
@@ -167,7 +167,7 @@ bool Transfer::take_body(const char* bytes, std::size_t count) {
     return true;
 }
 
-void Transfer::finish(CURLcode code) {
+void HttpTransfer::finish(CURLcode code) {
     code_ = code;
     long status = 0;
     curl_easy_getinfo(handle_, CURLINFO_RESPONSE_CODE, &status);
@@ -189,7 +189,7 @@ void Transfer::finish(CURLcode code) {
     if (!answer_.problem.empty()) answer_.body.clear(), answer_.parts.clear();
 }
 
-void Transfer::judge_ranges() {
+void HttpTransfer::judge_ranges() {
     const bool is_multipart = lower(content_type_).starts_with("multipart/byteranges");
     if (is_multipart) {
         const std::string_view body(reinterpret_cast<const char*>(answer_.body.data()), answer_.body.size());
@@ -208,7 +208,7 @@ void Transfer::judge_ranges() {
     }
 }
 
-bool Transfer::is_worth_repeating() const {
+bool HttpTransfer::is_worth_repeating() const {
     if (answer_.is_certificate || answer_.lacks_ranges || code_ == CURLE_UNSUPPORTED_PROTOCOL || code_ == CURLE_URL_MALFORMAT) return false;
     return !answer_.problem.empty() || answer_.status == 0 || answer_.status == 408 || answer_.status == 429 || answer_.status >= 500;
 }

@@ -14,12 +14,12 @@
 
 namespace isoatlas {
 
-class Transfer {
+class HttpTransfer {
 public:
-    Transfer(const Address& address, RangeSet ranges, std::int64_t max_whole, const RemoteOptions& options);
-    ~Transfer();
-    Transfer(const Transfer&) = delete;
-    Transfer& operator=(const Transfer&) = delete;
+    HttpTransfer(const Address& address, RangeSet ranges, std::int64_t max_whole, const RemoteOptions& options);
+    ~HttpTransfer();
+    HttpTransfer(const HttpTransfer&) = delete;
+    HttpTransfer& operator=(const HttpTransfer&) = delete;
 
     [[nodiscard]] CURL* handle() const { return handle_; }
     /// After libcurl is done with it: judges the answer.

@@ -52,8 +52,9 @@ std::vector<BodyPart> body_of(const std::vector<FileRange>& ranges, std::int64_t
     const std::string mark = "\r\n--" + std::string(kBoundary);
     std::vector<BodyPart> parts;
     for (const FileRange& range : ranges) {
-        parts.push_back({mark + "\r\nContent-Type: " + std::string(kBytesType) + "\r\nContent-Range: " + content_range(range, size) + "\r\n\r\n",
-                         range});
+        parts.push_back(
+            {mark + "\r\nContent-Type: " + std::string(kBytesType) + "\r\nContent-Range: " + content_range(range, size) + "\r\n\r\n",
+             range});
     }
     parts.push_back({mark + "--\r\n", {}});
     return parts;
@@ -137,7 +138,8 @@ private:
         const std::unique_ptr<File> file = open_file(path);
         std::error_code ignored;
         const auto time = fs::last_write_time(path, ignored).time_since_epoch().count();
-        FileResponse response = response_to(head.range, file->size(), "\"" + std::to_string(time) + "-" + std::to_string(file->size()) + "\"");
+        FileResponse response =
+            response_to(head.range, file->size(), "\"" + std::to_string(time) + "-" + std::to_string(file->size()) + "\"");
         response.head.keep_alive = head.keep_alive;
         if (!peer.send(text_of(response.head), head.method != "HEAD" && *response.head.length > 0)) return false;
         if (head.method == "HEAD") return head.keep_alive;

@@ -116,17 +116,28 @@ std::string first_picture_option(const CLI::App& app) {
     return {};
 }
 
-void convert(const CLI::App& app, const Typed& typed, Arguments& arguments) {
-    const auto given = [&](const char* name) {
-        const CLI::Option* option = app.get_option_no_throw(name);
-        return option != nullptr && option->count() > 0;
-    };
+/// How a RAW file is read, and which volume of a file of several. given(option): was it typed?
+template <class Given>
+void convert_reading(const Given& given, const Typed& typed, Arguments& arguments) {
     if (given("--dims")) arguments.open.dims = parse_dims(typed.dims);
     if (given("--type")) arguments.open.type = parse_type(typed.type);
     if (given("--endian")) arguments.open.big_endian = parse_choice<bool>("--endian", typed.endian, {{"little", false}, {"big", true}});
     if (given("--skip")) arguments.open.skip_bytes = typed.skip;
     if (given("--spacing")) arguments.open.spacing = parse_vector("--spacing", typed.spacing, 1);
     if (given("--origin")) arguments.open.origin = parse_vector("--origin", typed.origin, 0);
+    if (given("--cache")) arguments.cache = parse_bytes("--cache", typed.cache, 0);
+    if (given("--channel")) arguments.open.channel = typed.channel;
+    if (given("--series")) arguments.open.series = typed.series;
+    if (given("--level")) arguments.open.level = typed.level;
+    if (given("--time-step")) arguments.open.time_step = typed.time_step;
+}
+
+void convert(const CLI::App& app, const Typed& typed, Arguments& arguments) {
+    const auto given = [&](const char* name) {
+        const CLI::Option* option = app.get_option_no_throw(name);
+        return option != nullptr && option->count() > 0;
+    };
+    convert_reading(given, typed, arguments);
     if (given("--box")) arguments.box = parse_box("--box", typed.box);
     if (given("--unit")) arguments.open.unit = parse_unit("--unit", typed.unit);
     if (given("--value-unit")) arguments.open.value_unit = parse_unit("--value-unit", typed.value_unit);
@@ -134,11 +145,6 @@ void convert(const CLI::App& app, const Typed& typed, Arguments& arguments) {
     arguments.objects = parse_references("--object", typed.objects);
     arguments.contours = parse_references("--contour", typed.contours);
     arguments.removed_names = parse_references("--remove", typed.removed_names);
-    if (given("--time-step")) arguments.open.time_step = typed.time_step;
-    if (given("--cache")) arguments.cache = parse_bytes("--cache", typed.cache, 0);
-    if (given("--channel")) arguments.open.channel = typed.channel;
-    if (given("--series")) arguments.open.series = typed.series;
-    if (given("--level")) arguments.open.level = typed.level;
     if (given("--missing")) arguments.missing = parse_missing(typed.missing);
     if (given("--no-data")) convert_no_data(typed.no_data, arguments);
     if (given("--polarity")) convert_polarity(typed.polarity, arguments);

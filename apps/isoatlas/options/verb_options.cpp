@@ -283,11 +283,11 @@ void add_polarity(CLI::App& app, Typed& typed) {
 void add_options_of(const std::string& verb, CLI::App& app, Arguments& arguments, Typed& typed) {
     using Add = void (*)(CLI::App&, Arguments&, Typed&);
     static const std::map<std::string_view, Add> list{
-        {"tree", tree_options},       {"info", info_options},         {"objects", objects_options}, {"measure", measure_options},
-        {"extract", extract_options}, {"render", render_options},     {"animate", animate_options}, {"label", label_options},
-        {"build", build_options},     {"atlas", atlas_options},       {"view", view_options},       {"ask", ask_options},         {"serve", serve_options},
-        {"handles", handles_options}, {"spectrum", spectrum_options}, {"convert", convert_options}, {"phantom", phantom_options},
-        {"verify", verify_options},   {"name", name_options},         {"compare", compare_options},
+        {"tree", tree_options},       {"info", info_options},       {"objects", objects_options},   {"measure", measure_options},
+        {"extract", extract_options}, {"render", render_options},   {"animate", animate_options},   {"label", label_options},
+        {"build", build_options},     {"atlas", atlas_options},     {"view", view_options},         {"ask", ask_options},
+        {"serve", serve_options},     {"handles", handles_options}, {"spectrum", spectrum_options}, {"convert", convert_options},
+        {"phantom", phantom_options}, {"verify", verify_options},   {"name", name_options},         {"compare", compare_options},
     };
     if (const auto found = list.find(verb); found != list.end()) found->second(app, arguments, typed);
 }

@@ -30,7 +30,8 @@ const std::vector<Verb> kVerbs{
      run_view},
     {"serve",
      "FOLDER",
-     "Serve the files of a folder by HTTP, so that isoatlas reads parts of them from elsewhere. Any web server with range requests does, too.",
+     "Serve the files of a folder by HTTP, so that isoatlas reads parts of them from elsewhere. Any web server with range requests does, "
+     "too.",
      {"isoatlas serve /data/scans", "isoatlas serve . --port 8000", "isoatlas serve . --json"},
      run_serve},
     {"ask",

@@ -141,7 +141,7 @@ void check_shape(const NetcdfFile& file, const NetcdfVariable& variable, const C
                                          .what = "the variable is " + std::string(variable.type.name) + " with the dimensions " +
                                                  (dimensions.empty() ? "none" : dimensions),
                                          .expected = "2 or 3 dimensions of space with more than one sample, and time",
-                                         .next = "choose another variable, or take a part of it, e.g. with ncks -d"});
+                                         .next = "choose another variable, or take a part of it, e.g. with ncks"});
 }
 
 Hdf5Place place_variable(const NetcdfFile& file, const NetcdfVariable& variable, const CfShape& shape, VolumeInfo& info) {

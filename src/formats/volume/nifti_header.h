@@ -14,7 +14,7 @@ inline constexpr std::int64_t kNifti1HeaderBytes = 348, kNifti2HeaderBytes = 540
 struct NiftiHeader {
     int version = 1;
     bool big_endian = false;
-    bool pair = false;                  ///< samples in an .img file
+    bool pair = false;  ///< samples in an .img file
     bool is_analyze = false;
     std::string analyze_unit;           ///< of lengths
     std::array<std::int64_t, 8> dim{};  ///< dim[0]: number of dimensions

@@ -30,18 +30,19 @@ struct ReadFormat {
     std::unique_ptr<VolumeReader> (*open)(const std::string&, const OpenOptions&);
 };
 
-constexpr std::array<ReadFormat, 12> kReadFormats = {{{"DICOM", ".dcm .dicom .ima", looks_like_dicom, open_dicom},  // its preamble may be a TIFF file
-                                                      {"NRRD", ".nrrd .nhdr", looks_like_nrrd, open_nrrd},
-                                                      {"NIfTI", ".nii .nii.gz", looks_like_nifti, open_nifti},
-                                                      {"NumPy", ".npy", looks_like_npy, open_npy},
-                                                      {"VTK image", ".vti", looks_like_vti, open_vti},
-                                                      {"VTK legacy", ".vtk", looks_like_vtk_legacy, open_vtk_legacy},
-                                                      {"TIFF", ".tif .tiff", looks_like_tiff, open_tiff},
-                                                      {"MRC", ".mrc .map .ccp4 .rec .st .ali .mrcs", looks_like_mrc, open_mrc},
-                                                      {"Zarr", ".zip .ozx", looks_like_zip, open_zarr_zip},
-                                                      {"MetaImage", ".mha .mhd", looks_like_metaimage, open_metaimage},
-                                                      {"NetCDF", ".nc .nc4 .netcdf", looks_like_netcdf, open_netcdf},
-                                                      {"HDF5", ".h5 .hdf5 .he5 .ims .nxs .nx5 .vtkhdf .jld2", looks_like_hdf5, open_hdf5}}};
+constexpr std::array<ReadFormat, 12> kReadFormats = {
+    {{"DICOM", ".dcm .dicom .ima", looks_like_dicom, open_dicom},  // its preamble may be a TIFF file
+     {"NRRD", ".nrrd .nhdr", looks_like_nrrd, open_nrrd},
+     {"NIfTI", ".nii .nii.gz", looks_like_nifti, open_nifti},
+     {"NumPy", ".npy", looks_like_npy, open_npy},
+     {"VTK image", ".vti", looks_like_vti, open_vti},
+     {"VTK legacy", ".vtk", looks_like_vtk_legacy, open_vtk_legacy},
+     {"TIFF", ".tif .tiff", looks_like_tiff, open_tiff},
+     {"MRC", ".mrc .map .ccp4 .rec .st .ali .mrcs", looks_like_mrc, open_mrc},
+     {"Zarr", ".zip .ozx", looks_like_zip, open_zarr_zip},
+     {"MetaImage", ".mha .mhd", looks_like_metaimage, open_metaimage},
+     {"NetCDF", ".nc .nc4 .netcdf", looks_like_netcdf, open_netcdf},
+     {"HDF5", ".h5 .hdf5 .he5 .ims .nxs .nx5 .vtkhdf .jld2", looks_like_hdf5, open_hdf5}}};
 
 /// Common formats that isoatlas does not read, and how to convert them.
 constexpr std::array<std::pair<std::string_view, const char*>, 6> kForeign = {

@@ -172,7 +172,8 @@ std::unique_ptr<VolumeReader> open_zarr_folder(const std::string& path, const Op
         if (inside.ends_with('/')) inside.pop_back();
         root = root.parent_path();
     }
-    return open_zarr_store(open_folder_store(inside.empty() && !is_address(path) ? path : root.string(), options.follow_links), path, inside, options);
+    return open_zarr_store(open_folder_store(inside.empty() && !is_address(path) ? path : root.string(), options.follow_links), path,
+                           inside, options);
 }
 
 bool looks_like_zip(FirstBytes first, const std::string& path) {

@@ -27,7 +27,7 @@ std::string short_time_unit(const std::string& unit) {
 }
 
 /// One unit for all axes: that of x, to which the others are converted.
-void set_unit(const Multiscale& image, const ZarrAxes& axes, std::array<AxisScale, 3>& scales, VolumeInfo& info) {
+void set_unit(const Multiscale& image, const ZarrAxes& axes, std::array<LevelScale, 3>& scales, VolumeInfo& info) {
     const std::string unit = unit_name(image.units[place_of(axes.space[0])]);
     for (std::size_t a = 1; a < 3; ++a) {
         if (axes.space[a] < 0) continue;
@@ -45,12 +45,12 @@ void set_unit(const Multiscale& image, const ZarrAxes& axes, std::array<AxisScal
 
 void set_geometry(const ZarrImage& image, const ZarrAxes& axes, VolumeInfo& info) {
     if (!image.multiscale) return;
-    const std::vector<AxisScale>& of_axes = image.multiscale->levels[image.level].scales;
+    const std::vector<LevelScale>& of_axes = image.multiscale->levels[image.level].scales;
     if (of_axes.empty()) {
         info.notes.emplace_back("the size of the samples is not given: 1 was assumed");
         return;
     }
-    std::array<AxisScale, 3> scales{};
+    std::array<LevelScale, 3> scales{};
     for (std::size_t a = 0; a < 3; ++a) {
         if (axes.space[a] >= 0) scales[a] = of_axes[place_of(axes.space[a])];
     }
@@ -69,7 +69,7 @@ void set_time(const std::string& path, const ZarrImage& image, const ZarrAxes& a
     volumes.time_steps = step.count, volumes.time_step = step.index;
     if (axes.time < 0 || !image.multiscale || step.count > kMostTimes) return;
     const std::string& unit = image.multiscale->units[place_of(axes.time)];
-    const std::vector<AxisScale>& scales = image.multiscale->levels[image.level].scales;
+    const std::vector<LevelScale>& scales = image.multiscale->levels[image.level].scales;
     if (scales.empty() || (unit.empty() && scales[place_of(axes.time)].scale == 1)) return;
     const auto [scale, translation] = scales[place_of(axes.time)];
     for (std::int64_t i = 0; i < step.count; ++i) volumes.times.push_back(scale * static_cast<double>(i) + translation);

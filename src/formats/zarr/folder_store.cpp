@@ -77,7 +77,8 @@ private:
     /// a broken connection hides would be one that was never written.
     bool open_on_server(const std::string& path) {
         OpenedFile opened = file_system().open(path);
-        if (!opened.file && opened.error != -ENOENT) bad_zarr(*this, path, "cannot be opened", "a file", "check the connection, and try again");
+        if (!opened.file && opened.error != -ENOENT)
+            bad_zarr(*this, path, "cannot be opened", "a file", "check the connection, and try again");
         file_ = std::move(opened.file);
         return file_ != nullptr;
     }

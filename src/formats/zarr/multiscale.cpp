@@ -93,7 +93,7 @@ std::vector<double> numbers_of(const KeyStore& store, const std::string& group, 
 }
 
 /// Applies "coordinateTransformations" of an object, if it has any.
-void transform(const KeyStore& store, const std::string& group, const Json& object, std::size_t rank, std::vector<AxisScale>& scales) {
+void transform(const KeyStore& store, const std::string& group, const Json& object, std::size_t rank, std::vector<LevelScale>& scales) {
     const Json* list = find_member(object, "coordinateTransformations");
     if (list == nullptr || list->is_null()) return;
     if (!list->is_array()) bad_image(store, group, "\"coordinateTransformations\" is not valid", "a list");
@@ -106,7 +106,7 @@ void transform(const KeyStore& store, const std::string& group, const Json& obje
         const std::vector<double> numbers = numbers_of(store, group, transformation, type, rank);
         scales.resize(rank);
         for (std::size_t axis = 0; axis < rank; ++axis) {
-            AxisScale& of_axis = scales[axis];
+            LevelScale& of_axis = scales[axis];
             if (type == "translation") of_axis.translation += numbers[axis];
             if (type == "scale") of_axis.scale *= numbers[axis], of_axis.translation *= numbers[axis];
         }

@@ -19,13 +19,13 @@ struct ZarrAxes {
 };
 
 /// Coordinates along an axis of an array: scale * index + translation.
-struct AxisScale {
+struct LevelScale {
     double scale = 1, translation = 0;
 };
 
 struct MultiscaleLevel {
-    std::string path;                 ///< of the array, in the hierarchy
-    std::vector<AxisScale> scales{};  ///< of each axis; empty: the file does not say
+    std::string path;                  ///< of the array, in the hierarchy
+    std::vector<LevelScale> scales{};  ///< of each axis; empty: the file does not say
 };
 
 struct Multiscale {

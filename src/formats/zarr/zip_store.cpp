@@ -88,7 +88,7 @@ private:
             unsupported_zarr(*this, key, "the entry of the archive is encrypted", "entries without a password", "write it without one");
         if (entry.method != kZipStored && entry.method != kZipDeflated)
             unsupported_zarr(*this, key, "the entry of the archive is compressed by method " + std::to_string(entry.method),
-                             "stored or deflated entries", "zip the folder again, for example with `zip -0 -r`");
+                             "stored or deflated entries", "zip the folder again without compression");
         std::vector<std::byte> packed(static_cast<std::size_t>(entry.packed)), value;
         read_fully(*file_, name(), zip_data_offset(*file_, name(), entry), packed);
         if (entry.method == kZipStored) {

@@ -39,7 +39,8 @@ TEST(PieceCache, WhatIsReadWasAddedAndTheRestIsMissing) {
         for (const FileRange& gap : cache.missing(asked, {from, to})) {
             for (std::int64_t at = gap.begin; at < gap.end; ++at) missing[static_cast<std::size_t>(at)] = true;
         }
-        for (std::int64_t at = from; at < to; ++at) ASSERT_EQ(missing[static_cast<std::size_t>(at)], !present[static_cast<std::size_t>(at)]);
+        for (std::int64_t at = from; at < to; ++at)
+            ASSERT_EQ(missing[static_cast<std::size_t>(at)], !present[static_cast<std::size_t>(at)]);
     }
     cache.forget(0);
     EXPECT_EQ(cache.missing(0, {0, kSize}), (std::vector<FileRange>{{0, kSize}}));

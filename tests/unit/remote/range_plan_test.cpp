@@ -23,7 +23,8 @@ std::vector<FileRange> random_ranges(std::mt19937_64& random, std::size_t count,
 }
 
 std::int64_t total(const std::vector<FileRange>& ranges) {
-    return std::accumulate(ranges.begin(), ranges.end(), std::int64_t{0}, [](std::int64_t sum, const FileRange& r) { return sum + r.bytes(); });
+    return std::accumulate(ranges.begin(), ranges.end(), std::int64_t{0},
+                           [](std::int64_t sum, const FileRange& r) { return sum + r.bytes(); });
 }
 
 bool covers(const std::vector<FileRange>& requests, const FileRange& range) {

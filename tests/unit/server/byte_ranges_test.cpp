@@ -19,7 +19,8 @@ TEST(ByteRanges, FormsOfTheStandard) {
 }
 
 TEST(ByteRanges, AnythingElseIsIgnored) {
-    for (const char* field : {"", "bytes", "bytes=", "bytes=a-b", "bytes=5-2", "bytes=1-2,", "items=0-1", "bytes=99999999999999999999-", "bytes=1--2"})
+    for (const char* field :
+         {"", "bytes", "bytes=", "bytes=a-b", "bytes=5-2", "bytes=1-2,", "items=0-1", "bytes=99999999999999999999-", "bytes=1--2"})
         EXPECT_EQ(byte_ranges(field, 10), std::nullopt) << field;
     std::string many = "bytes=0-0";
     for (std::size_t i = 0; i < kMostByteRanges; ++i) many += ",1-1";

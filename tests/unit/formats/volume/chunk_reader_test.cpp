@@ -14,22 +14,27 @@ std::uint16_t sample_at(const Index3& voxel) { return static_cast<std::uint16_t>
 
 Volume whole_of(const Extent& extent) {
     Volume volume = make_volume(extent, ValueType::u16);
-    for (std::int64_t i = 0; i < extent.voxels(); ++i) volume.samples<std::uint16_t>()[static_cast<std::size_t>(i)] = sample_at(extent.voxel(i));
+    for (std::int64_t i = 0; i < extent.voxels(); ++i)
+        volume.samples<std::uint16_t>()[static_cast<std::size_t>(i)] = sample_at(extent.voxel(i));
     return volume;
 }
 
 std::unique_ptr<VolumeReader> chunked(const Extent& extent, const Index3& chunk, std::int64_t cache, int& reads) {
     VolumeInfo info;
     info.type = ValueType::u16, info.extent = extent, info.chunk = chunk;
-    return make_chunk_reader(info, [chunk, &reads](const Index3& at, std::span<std::byte> out) {
-        ++reads;
-        const std::span<std::uint16_t> samples(reinterpret_cast<std::uint16_t*>(out.data()), out.size() / 2);
-        const Extent one{3, chunk};
-        for (std::int64_t i = 0; i < one.voxels(); ++i) {
-            const Index3 in = one.voxel(i);
-            samples[static_cast<std::size_t>(i)] = sample_at({at[0] * chunk[0] + in[0], at[1] * chunk[1] + in[1], at[2] * chunk[2] + in[2]});
-        }
-    }, cache);
+    return make_chunk_reader(
+        info,
+        [chunk, &reads](const Index3& at, std::span<std::byte> out) {
+            ++reads;
+            const std::span<std::uint16_t> samples(reinterpret_cast<std::uint16_t*>(out.data()), out.size() / 2);
+            const Extent one{3, chunk};
+            for (std::int64_t i = 0; i < one.voxels(); ++i) {
+                const Index3 in = one.voxel(i);
+                samples[static_cast<std::size_t>(i)] =
+                    sample_at({at[0] * chunk[0] + in[0], at[1] * chunk[1] + in[1], at[2] * chunk[2] + in[2]});
+            }
+        },
+        cache);
 }
 
 std::vector<std::byte> read(VolumeReader& reader, const SampleBox& box) {

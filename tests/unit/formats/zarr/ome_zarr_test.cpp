@@ -200,8 +200,7 @@ TEST(OmeZarr, NamedAxesOfPlainArrays) {
     EXPECT_EQ(info.calibration.intercept, -3);
     EXPECT_EQ(info.value_unit, "K");
     const Layout three{.version = 3, .shape = {2, 3, 4}, .chunk = {2, 3, 2}, .dimension_names = R"(["t","y","x"])"};
-    EXPECT_EQ(open_volume(test::folder_of(folder, "three", test::array_keys(three)), second_step)->info().extent,
-              (Extent{2, {4, 3, 1}}));
+    EXPECT_EQ(open_volume(test::folder_of(folder, "three", test::array_keys(three)), second_step)->info().extent, (Extent{2, {4, 3, 1}}));
     const Layout other{.version = 3, .shape = {2, 3, 4}, .chunk = {2, 3, 2}, .dimension_names = R"(["lat",null,"x"])"};
     EXPECT_EQ(open_volume(test::folder_of(folder, "other", test::array_keys(other)))->info().extent, (Extent{3, {4, 3, 2}}));
 }

@@ -290,9 +290,8 @@ TEST(Zarr, SlabsTakeLittleMemory) {
     for (std::size_t i = 0; i < chunk.size(); ++i) chunk[i] = static_cast<float>(i % 1000);
     const std::vector<std::byte> packed = encode_blosc(std::as_bytes(std::span(chunk)), sizeof(float));
     const std::string value(reinterpret_cast<const char*>(packed.data()), packed.size());
-    Keys keys{{".zarray",
-               R"({"zarr_format":2,"shape":[512,512,512],"chunks":[64,64,64],"dtype":"<f4","order":"C","filters":null,)"
-               R"("fill_value":0,"compressor":{"id":"blosc"}})"}};
+    Keys keys{{".zarray", R"({"zarr_format":2,"shape":[512,512,512],"chunks":[64,64,64],"dtype":"<f4","order":"C","filters":null,)"
+                          R"("fill_value":0,"compressor":{"id":"blosc"}})"}};
     test::for_each_index({kSize / kChunk, kSize / kChunk, kSize / kChunk}, [&](const Sizes& at) {
         keys[std::to_string(at[0]) + "." + std::to_string(at[1]) + "." + std::to_string(at[2])] = value;
     });
