@@ -18,7 +18,7 @@ namespace {
 constexpr std::int64_t kUndefined = 0xFFFFFFFF;
 constexpr std::int64_t kMaxValue = 1 << 20;  // bytes of a wanted element
 constexpr std::size_t kMaxDepth = 64;
-constexpr std::size_t kPreamble = 128;
+constexpr std::size_t kDicomPreamble = 128;
 constexpr DicomTag kGroupLength = 0x00020000;
 
 std::string tag_name(DicomTag tag) {
@@ -168,9 +168,9 @@ private:
 };
 
 void DicomParser::read_meta() {
-    std::array<std::byte, kPreamble + 4> first{};
+    std::array<std::byte, kDicomPreamble + 4> first{};
     const std::size_t got = input_->read(first);
-    const bool has_preamble = got == first.size() && std::memcmp(first.data() + kPreamble, "DICM", 4) == 0;
+    const bool has_preamble = got == first.size() && std::memcmp(first.data() + kDicomPreamble, "DICM", 4) == 0;
     const std::int64_t begin = has_preamble ? static_cast<std::int64_t>(first.size()) : 0;
     if (!has_preamble && !starts_like_dicom(std::span(first).first(got)))
         bad_header(path_, "byte 0", "is not that of a DICOM file", "\"DICM\" at byte 128");
@@ -344,7 +344,7 @@ void DicomParser::found_pixels(const Element& element) {
 }  // namespace
 
 bool starts_like_dicom(std::span<const std::byte> first) {
-    if (first.size() >= kPreamble + 4 && std::memcmp(first.data() + kPreamble, "DICM", 4) == 0) return true;
+    if (first.size() >= kDicomPreamble + 4 && std::memcmp(first.data() + kDicomPreamble, "DICM", 4) == 0) return true;
     constexpr std::size_t kElement = 8;
     if (first.size() < 2 * kElement) return false;
     const auto byte = [&](std::size_t i) { return std::to_integer<std::uint32_t>(first[i]); };

@@ -41,14 +41,14 @@ private:
     const DicomValues* frame_;
 };
 
-double length_of(const Vec3& v) { return std::sqrt(dot_product(v, v)); }
+double dicom_length(const Vec3& v) { return std::sqrt(dot_product(v, v)); }
 
 void take_orientation(const DicomHeader& header, const FrameValues& values, DicomSlice& slice) {
     const auto cosines = values.take<6>(kDicomOrientation, "ImageOrientationPatient");
     if (!cosines) return;
     const auto& c = *cosines;
     slice.row = {c[0], c[1], c[2]}, slice.column = {c[3], c[4], c[5]};
-    const double row = length_of(slice.row), column = length_of(slice.column);
+    const double row = dicom_length(slice.row), column = dicom_length(slice.column);
     constexpr double kRounding = 1e-2;
     if (!(std::abs(row - 1) < kRounding && std::abs(column - 1) < kRounding && std::abs(dot_product(slice.row, slice.column)) < kRounding))
         bad_header(header.path, "ImageOrientationPatient", "is not two perpendicular directions", "direction cosines");
@@ -184,7 +184,7 @@ double dot_product(const Vec3& a, const Vec3& b) { return a[0] * b[0] + a[1] * b
 Vec3 dicom_normal(const DicomSlice& slice) {
     const Vec3 &a = slice.row, &b = slice.column;
     Vec3 normal{a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-    const double length = length_of(normal);
+    const double length = dicom_length(normal);
     for (double& entry : normal) entry /= length;
     return normal;
 }

@@ -87,10 +87,10 @@ std::string free_name(const std::vector<std::string>& taken, const std::string& 
 /// Adds to the hierarchy that is there: the group appears whole, then the list of labels names it.
 std::vector<std::string> add_labels(const std::string& path, const std::string& wanted, std::span<const std::uint32_t> labels,
                                     std::span<const Segment> segments, const VolumeInfo& info) {
-    constexpr std::size_t kMostNames = 10000;
+    constexpr std::size_t kMostLabelSets = 10000;
     const std::unique_ptr<KeyStore> store = open_folder_store(path, false);
     check_image(*store, path, info.extent);
-    std::vector<std::string> names = labels_of(*store, "", kMostNames), warnings;
+    std::vector<std::string> names = labels_of(*store, "", kMostLabelSets), warnings;
     const std::string name = free_name(names, path, wanted);
     if (name != wanted)
         warnings.push_back("the labels " + in_quotes(wanted) + " are there already and stay: the new ones are " + in_quotes(name));
