@@ -238,14 +238,10 @@ std::unique_ptr<VolumeReader> open_dicom(const std::string& path, const OpenOpti
 
 std::unique_ptr<VolumeReader> open_dicom_folder(const std::string& path, const OpenOptions& options) {
     std::vector<DicomFile> files;
-    std::int64_t others = 0;
     for (const std::string& name : list_files(path, kMaxFolders, options.follow_links)) {
-        if (!is_dicom_file(name)) {
-            ++others;
-            continue;
-        }
+        if (!is_dicom_file(name)) continue;
         if (!options.follow_links) require_inside(path, name);
-        if (!add_dicom_file(files, read_dicom_header(name))) ++others;
+        (void)add_dicom_file(files, read_dicom_header(name));
     }
     if (files.empty()) return nullptr;
     const std::vector<DicomGroup> groups = dicom_groups(files);

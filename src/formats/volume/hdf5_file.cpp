@@ -61,9 +61,9 @@ std::vector<std::string> texts_of_any_length(const OpenAttribute& open) {
     H5Tset_cset(type, H5Tget_cset(open.type));
     std::vector<char*> read(static_cast<std::size_t>(open.count), nullptr);
     std::vector<std::string> texts;
-    if (H5Aread(open.attribute, type, read.data()) < 0) return texts;
+    if (H5Aread(open.attribute, type, static_cast<void*>(read.data())) < 0) return texts;
     for (const char* text : read) texts.emplace_back(text == nullptr ? "" : text);
-    H5Dvlen_reclaim(type, open.space, H5P_DEFAULT, read.data());
+    H5Dvlen_reclaim(type, open.space, H5P_DEFAULT, static_cast<void*>(read.data()));
     return texts;
 }
 
@@ -71,7 +71,7 @@ std::vector<std::string> texts_of_one_length(const OpenAttribute& open) {
     const std::size_t size = H5Tget_size(open.type);
     std::string read(size * static_cast<std::size_t>(open.count), '\0');
     std::vector<std::string> texts;
-    if (H5Aread(open.attribute, open.type, read.data()) < 0) return texts;
+    if (H5Aread(open.attribute, open.type, static_cast<void*>(read.data())) < 0) return texts;
     const bool is_padded = H5Tget_strpad(open.type) == H5T_STR_SPACEPAD;
     for (std::size_t i = 0; i < read.size(); i += size) {
         std::string_view text = std::string_view(read).substr(i, size);
@@ -226,7 +226,7 @@ std::vector<std::vector<std::string>> Hdf5File::references(const std::string& ob
     if (H5Tequal(element, H5T_STD_REF_OBJ) <= 0) return lists;
     const Hdf5Handle type(H5Tvlen_create(H5T_STD_REF_OBJ), H5Tclose);
     std::vector<hvl_t> read(static_cast<std::size_t>(open.count));
-    if (H5Aread(open.attribute, type, read.data()) < 0) return lists;
+    if (H5Aread(open.attribute, type, static_cast<void*>(read.data())) < 0) return lists;
     for (const hvl_t& list : read) {
         std::vector<std::string> identities;
         for (std::size_t i = 0; i < std::min<std::size_t>(list.len, 64); ++i) {
@@ -238,7 +238,7 @@ std::vector<std::vector<std::string>> Hdf5File::references(const std::string& ob
         }
         lists.push_back(std::move(identities));
     }
-    H5Dvlen_reclaim(type, open.space, H5P_DEFAULT, read.data());
+    H5Dvlen_reclaim(type, open.space, H5P_DEFAULT, static_cast<void*>(read.data()));
     return lists;
 }
 

@@ -80,7 +80,7 @@ VtkChoices vtk_choices(const Hdf5File& file, const VtkImage& image) {
 }
 
 void set_vtk_geometry(const Hdf5File& file, const VtkImage& image, bool cells, VolumeInfo& info) {
-    const auto given = [&](const char* name, std::vector<double> missing) {
+    const auto given = [&](const char* name, const std::vector<double>& missing) {
         const std::vector<double> numbers = file.numbers(kVtkRoot, name);
         return are_numbers(numbers, missing.size()) ? numbers : missing;
     };

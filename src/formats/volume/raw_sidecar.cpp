@@ -12,7 +12,7 @@
 namespace isoatlas {
 namespace {
 
-using Json = nlohmann::json;
+using SidecarJson = nlohmann::json;
 
 constexpr std::int64_t kLongestSidecar = 1024 * 1024;
 constexpr int kDeepest = 8;  // a sidecar is a flat object; deeper nesting is another kind of JSON
@@ -36,11 +36,11 @@ bool nested_too_deep(const std::string& text) {
     return false;
 }
 
-std::vector<std::int64_t> read_dims(const std::string& path, const Json& value) {
+std::vector<std::int64_t> read_dims(const std::string& path, const SidecarJson& value) {
     constexpr const char* kExpected = "[nx, ny] or [nx, ny, nz], each at least 1";
     if (!value.is_array() || value.size() < 2 || value.size() > 3) fail(path, "dims", kExpected);
     std::vector<std::int64_t> dims;
-    for (const Json& size : value) {
+    for (const SidecarJson& size : value) {
         const bool huge = size.is_number_unsigned() && size.get<std::uint64_t>() > static_cast<std::uint64_t>(INT64_MAX);
         if (!size.is_number_integer() || huge || size.get<std::int64_t>() < 1) fail(path, "dims", kExpected);
         dims.push_back(size.get<std::int64_t>());
@@ -48,7 +48,7 @@ std::vector<std::int64_t> read_dims(const std::string& path, const Json& value) 
     return dims;
 }
 
-Vec3 read_vector(const std::string& path, const std::string& key, const Json& value, double otherwise) {
+Vec3 read_vector(const std::string& path, const std::string& key, const SidecarJson& value, double otherwise) {
     if (!value.is_array() || value.size() < 2 || value.size() > 3) fail(path, key, "2 or 3 numbers");
     Vec3 vector{otherwise, otherwise, otherwise};
     for (std::size_t i = 0; i < value.size(); ++i) {
@@ -58,24 +58,24 @@ Vec3 read_vector(const std::string& path, const std::string& key, const Json& va
     return vector;
 }
 
-std::string read_text(const std::string& path, const std::string& key, const Json& value) {
+std::string read_text(const std::string& path, const std::string& key, const SidecarJson& value) {
     if (!value.is_string()) fail(path, key, "a text");
     return printable(value.get<std::string>());
 }
 
-bool read_big_endian(const std::string& path, const Json& value) {
+bool read_big_endian(const std::string& path, const SidecarJson& value) {
     const std::string text = lower(read_text(path, "endian", value));
     if (text != "little" && text != "big") fail(path, "endian", "\"little\" or \"big\"");
     return text == "big";
 }
 
-std::int64_t read_skip(const std::string& path, const Json& value) {
+std::int64_t read_skip(const std::string& path, const SidecarJson& value) {
     const bool huge = value.is_number_unsigned() && value.get<std::uint64_t>() > static_cast<std::uint64_t>(INT64_MAX);
     if (!value.is_number_integer() || huge || value.get<std::int64_t>() < 0) fail(path, "skip", "a number of bytes");
     return value.get<std::int64_t>();
 }
 
-void read_key(const std::string& path, const std::string& key, const Json& value, RawDescription& description) {
+void read_key(const std::string& path, const std::string& key, const SidecarJson& value, RawDescription& description) {
     if (key == "dims") {
         description.dims = read_dims(path, value);
     } else if (key == "type") {
@@ -118,7 +118,7 @@ RawDescription read_sidecar(const std::string& sidecar_path) {
     const std::vector<std::byte> bytes = read_header_bytes(sidecar_path, kLongestSidecar);
     const std::string text = decoded_text({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
     if (nested_too_deep(text)) fail(sidecar_path, "", "a flat JSON object");
-    const Json object = Json::parse(text, nullptr, /*allow_exceptions=*/false);
+    const SidecarJson object = SidecarJson::parse(text, nullptr, /*allow_exceptions=*/false);
     if (!object.is_object()) fail(sidecar_path, "", "a JSON object like {\"dims\": [64, 64, 64], \"type\": \"uint8\"}");
     RawDescription description;
     description.notes.push_back("described by " + shown_name(std::filesystem::path(sidecar_path).filename().string()));

@@ -3,6 +3,7 @@
 // AXIS ORDER. The last axis of an array in C order is x, as with .npy, unless the metadata name the axes.
 #include "formats/volume/zarr.h"
 
+#include <ranges>
 #include <algorithm>
 #include <filesystem>
 #include <utility>
@@ -119,8 +120,7 @@ void add_notes(KeyStore& store, const ZarrNode& node, const ZarrImage& image, co
     const std::int64_t most_asked = store.is_remote() ? 8 : 1000;
     if (const auto& shards = image.array.shards) {
         std::string size;
-        for (auto samples = shards->size.rbegin(); samples != shards->size.rend(); ++samples)
-            size += (size.empty() ? "" : " x ") + std::to_string(*samples);
+        for (const auto samples : std::views::reverse(shards->size)) size += (size.empty() ? "" : " x ") + std::to_string(samples);
         info.notes.push_back("shards of " + size);
     }
     if (!node.array) {
@@ -177,10 +177,10 @@ std::unique_ptr<VolumeReader> open_zarr_folder(const std::string& path, const Op
 }
 
 bool looks_like_zip(FirstBytes first, const std::string& path) {
-    constexpr std::array<std::string_view, 2> kMagic{"PK\x03\x04", "PK\x05\x06"};
+    constexpr std::array<std::string_view, 2> kZipMagic{"PK\x03\x04", "PK\x05\x06"};
     if (first.size() < 4 || ends_with_ignoring_case(path, ".npz")) return false;
     const std::string_view begin(reinterpret_cast<const char*>(first.data()), 4);
-    return begin == kMagic[0] || begin == kMagic[1];
+    return begin == kZipMagic[0] || begin == kZipMagic[1];
 }
 
 std::unique_ptr<VolumeReader> open_zarr_zip(const std::string& path, const OpenOptions& options) {

@@ -1,5 +1,6 @@
 #include "formats/zarr/hierarchy.h"
 
+#include <ranges>
 #include <algorithm>
 #include <set>
 #include <string_view>
@@ -77,7 +78,7 @@ std::vector<std::string> consolidated_names(KeyStore& store, const ZarrNode& gro
 
 std::string about_array(const ZarrArray& array) {
     std::string text;
-    for (auto size = array.shape.rbegin(); size != array.shape.rend(); ++size) text += (text.empty() ? "" : " x ") + std::to_string(*size);
+    for (const std::int64_t size : std::views::reverse(array.shape)) text += (text.empty() ? "" : " x ") + std::to_string(size);
     return text + " " + name_of(array.type.type);
 }
 

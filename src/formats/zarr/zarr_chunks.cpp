@@ -56,8 +56,9 @@ const std::vector<std::byte>* ZarrChunks::read(std::span<const std::int64_t> ind
 
 bool ZarrChunks::fetch(std::span<const std::int64_t> index) {
     std::optional<std::vector<std::byte>> found = store_->read(array_.key(index), static_cast<std::int64_t>(most_encoded_));
-    if (found) value_ = *std::move(found);
-    return found.has_value();
+    if (!found) return false;
+    value_ = *std::move(found);
+    return true;
 }
 
 bool ZarrChunks::fetch_of_shard(std::span<const std::int64_t> index) {
