@@ -30,6 +30,7 @@
 #include "isoatlas/context.h"
 #include "isoatlas/criticality.h"
 #include "isoatlas/cut.h"
+#include "isoatlas/dataset_path.h"
 #include "isoatlas/disk_search.h"
 #include "isoatlas/dump.h"
 #include "isoatlas/environment.h"

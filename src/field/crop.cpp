@@ -1,6 +1,7 @@
-#include <cstring>
+#include <span>
 #include <string>
 
+#include "field/copy_box.h"
 #include "isoatlas/filter.h"
 
 namespace isoatlas {
@@ -31,12 +32,8 @@ Volume crop(const Volume& volume, const SampleBox& box) {
     part.info = volume.info;
     part.info.extent = extent;
     part.info.geometry = geometry_of(volume.info.geometry, box);
-    const std::size_t size = size_of(volume.info.type), row = static_cast<std::size_t>(extent.size[0]) * size;
-    std::byte* to = part.bytes.data();
-    for (std::int64_t z = box.begin[2]; z < box.end[2]; ++z) {
-        for (std::int64_t y = box.begin[1]; y < box.end[1]; ++y, to += row)
-            std::memcpy(to, volume.bytes.data() + static_cast<std::size_t>(whole.index(box.begin[0], y, z)) * size, row);
-    }
+    const std::span<const std::byte> samples(volume.bytes.data(), volume.bytes.size());
+    copy_box(extent.size, {samples, whole.size, box.begin}, {part.bytes, extent.size, {0, 0, 0}}, size_of(volume.info.type));
     return part;
 }
 

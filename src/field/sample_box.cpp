@@ -1,7 +1,5 @@
 // Boxes of samples: where they lie, and reading them from a volume that comes in slices.
-#include <algorithm>
-#include <cstring>
-
+#include "field/copy_box.h"
 #include "isoatlas/volume.h"
 
 namespace isoatlas {
@@ -32,17 +30,17 @@ Geometry geometry_of(const Geometry& whole, const SampleBox& box) {
 
 void VolumeReader::read_box(const SampleBox& box, std::span<std::byte> out) {
     const Extent& extent = info_.extent;
-    const std::size_t size = size_of(info_.type), row = static_cast<std::size_t>(box.size()[0]) * size;
-    if (box.begin[0] == 0 && box.begin[1] == 0 && box.end[0] == extent.size[0] && box.end[1] == extent.size[1]) {
+    const std::size_t sample = size_of(info_.type);
+    const Index3 size = box.size();
+    if (size[0] == extent.size[0] && size[1] == extent.size[1]) {
         read(box.begin[2], box.end[2], out);
         return;
     }
-    std::vector<std::byte> slice(static_cast<std::size_t>(extent.slice()) * size);
-    std::byte* to = out.data();
+    std::vector<std::byte> slice(static_cast<std::size_t>(extent.slice()) * sample);
     for (std::int64_t z = box.begin[2]; z < box.end[2]; ++z) {
         read(z, z + 1, slice);
-        for (std::int64_t y = box.begin[1]; y < box.end[1]; ++y, to += row)
-            std::memcpy(to, slice.data() + static_cast<std::size_t>(extent.index(box.begin[0], y, 0)) * size, row);
+        copy_box({size[0], size[1], 1}, {slice, extent.size, {box.begin[0], box.begin[1], 0}}, {out, size, {0, 0, z - box.begin[2]}},
+                 sample);
     }
 }
 

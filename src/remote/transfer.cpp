@@ -1,7 +1,6 @@
 #include "remote/transfer.h"
 
 #include <algorithm>
-#include <charconv>
 #include <optional>
 #include <string_view>
 #include <utility>
@@ -18,22 +17,15 @@ constexpr std::int64_t kMostBytes = std::int64_t{1} << 62;
 constexpr std::int64_t kPartHeader = 1 << 10;      ///< what a part of several may take beside its bytes
 constexpr std::int64_t kMostErrorBody = 64 << 10;  ///< of an error page, which nobody reads
 
-std::optional<std::int64_t> number_of(std::string_view text) {
-    std::int64_t number = 0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-    if (text.empty() || error != std::errc() || end != text.data() + text.size() || number < 0) return std::nullopt;
-    return number;
-}
-
 /// "bytes 0-99/1000" or "bytes 0-99/*"; nothing changes where it is something else.
 void parse_content_range(std::string_view text, FileRange& range, std::int64_t& size) {
     if (!text.starts_with("bytes ")) return;
     text.remove_prefix(6);
     const std::size_t dash = text.find('-'), slash = text.find('/');
     if (dash == std::string_view::npos || slash == std::string_view::npos || dash > slash) return;
-    const auto first = number_of(text.substr(0, dash)), last = number_of(text.substr(dash + 1, slash - dash - 1));
-    if (first && last && *first <= *last && *last < kMostBytes) range = {*first, *last + 1};
-    if (const auto total = number_of(text.substr(slash + 1))) size = *total;
+    const auto first = parse_integer(text.substr(0, dash)), last = parse_integer(text.substr(dash + 1, slash - dash - 1));
+    if (first && last && 0 <= *first && *first <= *last && *last < kMostBytes) range = {*first, *last + 1};
+    if (const auto total = parse_integer(text.substr(slash + 1)); total && *total >= 0) size = *total;
 }
 
 bool is_certificate_problem(CURLcode code) {
@@ -139,11 +131,11 @@ void HttpTransfer::take_header(std::string line) {
     const std::string value = line.substr(std::min(line.find_first_not_of(" \t", colon + 1), line.size()));
     if (name == "content-range") parse_content_range(value, content_range_, answer_.total);
     if (name == "content-type") content_type_ = value;
-    if (name == "content-length") content_length_ = number_of(value).value_or(-1);
+    if (name == "content-length") content_length_ = parse_integer(value).value_or(-1);
     if (name == "etag") answer_.etag = value;
     if (name == "last-modified") answer_.last_modified = value;
     if (name == "location") answer_.location = value;
-    if (name == "retry-after") retry_after_ = static_cast<double>(number_of(value).value_or(0));
+    if (name == "retry-after") retry_after_ = static_cast<double>(std::max<std::int64_t>(parse_integer(value).value_or(0), 0));
 }
 
 std::int64_t HttpTransfer::most_bytes(long status) const {

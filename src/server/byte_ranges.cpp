@@ -1,24 +1,19 @@
 #include "server/byte_ranges.h"
 
 #include <algorithm>
-#include <charconv>
+
+#include "formats/common/text.h"
 
 namespace isoatlas {
 namespace {
-
-std::optional<std::int64_t> whole_number(std::string_view text) {
-    std::int64_t number = 0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-    if (text.empty() || error != std::errc() || end != text.data() + text.size() || number < 0) return std::nullopt;
-    return number;
-}
 
 /// nullopt: not a range. An empty one: outside the file.
 std::optional<FileRange> range_of(std::string_view text, std::int64_t size) {
     const std::size_t dash = text.find('-');
     if (dash == std::string_view::npos) return std::nullopt;
     const std::string_view before = text.substr(0, dash), behind = text.substr(dash + 1);
-    const std::optional<std::int64_t> first = whole_number(before), last = whole_number(behind);
+    const std::optional<std::int64_t> first = parse_integer(before), last = parse_integer(behind);
+    if (first.value_or(0) < 0 || last.value_or(0) < 0) return std::nullopt;
     if (before.empty()) return last ? std::optional(FileRange{std::max<std::int64_t>(size - *last, 0), size}) : std::nullopt;
     if (!first || (!behind.empty() && (!last || *last < *first))) return std::nullopt;
     if (*first >= size) return FileRange{};

@@ -37,6 +37,7 @@ PUBLIC = {
     "levelset": "cut nested_labels",
     "mesh": "labels print surface",
     "formats/common": "object_names output segmentation shell_word",
+    "formats/volume": "dataset_path",
     "formats/mesh": "evolution_file",
     "remote": "remote",
     "census": "search_table",

@@ -10,14 +10,7 @@
 #include "text/values.h"
 
 namespace isoatlas::cli {
-namespace {
-
-bool is_address(const std::string& word) { return word.starts_with("http://") || word.starts_with("https://"); }
-
-}  // namespace
-
 void use_network(const Arguments& arguments) {
-    if (arguments.verb == "ask" || !is_address(arguments.file)) return;
     RemoteOptions options;
     if (arguments.cache) options.disk_cache = *arguments.cache;
     const char* token = std::getenv("ISOATLAS_BEARER_TOKEN");  // NOLINT(concurrency-mt-unsafe): nobody sets it

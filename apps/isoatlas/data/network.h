@@ -7,7 +7,7 @@ namespace isoatlas::cli {
 
 class Terminal;
 
-/// Where an operand is an address: lets the libraries read it, with --cache and the token of the environment.
+/// Lets the libraries read addresses, with --cache and the token of the environment.
 void use_network(const Arguments& arguments);
 /// With -v: what was fetched.
 void tell_traffic(Terminal& terminal);

@@ -3,6 +3,8 @@
 #include <filesystem>
 #include <memory>
 
+#include <isoatlas/dataset_path.h>
+
 #include "data/input.h"
 #include "data/session.h"
 #include "data/source.h"
@@ -114,11 +116,8 @@ std::string stem_of(const std::string& file) {
 
 std::string stem_of_volume(const Arguments& arguments) {
     const OpenOptions& open = arguments.open;
-    const std::size_t colon = arguments.file.find(":/");
-    std::error_code ignored;
-    const bool has_dataset = colon != std::string::npos && colon > 0 && !fs::exists(arguments.file, ignored);
-    std::string stem = stem_of(has_dataset ? arguments.file.substr(0, colon) : arguments.file);
-    if (has_dataset) stem += file_word(arguments.file.substr(colon + 1));
+    const DatasetPath path = split_dataset(arguments.file);
+    std::string stem = stem_of(path.file) + file_word(path.dataset);
     if (open.series) stem += "_" + file_word(*open.series);
     if (open.channel) stem += "_" + file_word(*open.channel);
     if (open.time_step) stem += "_t" + std::to_string(*open.time_step);

@@ -1,7 +1,6 @@
 #include "formats/volume/choose.h"
 
 #include <algorithm>
-#include <charconv>
 #include <optional>
 #include <string_view>
 
@@ -30,20 +29,13 @@ std::string list_of(std::span<const ErrorChoice> choices) {
                                    .choices = {choices.begin(), choices.end()}});
 }
 
-std::optional<std::int64_t> number_of(std::string_view word) {
-    std::int64_t number = 0;
-    const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), number);
-    if (word.empty() || error != std::errc() || end != word.data() + word.size()) return std::nullopt;
-    return number;
-}
-
 /// An exact word, else the only one that differs in case alone, else a number from 0.
 std::optional<std::size_t> find_word(std::span<const std::string> words, const std::string& word) {
     const auto exact = std::ranges::find(words, word);
     if (exact != words.end()) return exact - words.begin();
     const auto same = [&](const std::string& other) { return lower(other) == lower(word); };
     if (!word.empty() && std::ranges::count_if(words, same) == 1) return std::ranges::find_if(words, same) - words.begin();
-    const std::optional<std::int64_t> number = number_of(word);
+    const std::optional<std::int64_t> number = parse_integer(word);
     if (!number || *number < 0 || *number >= static_cast<std::int64_t>(words.size())) return std::nullopt;
     return static_cast<std::size_t>(*number);
 }

@@ -1,12 +1,12 @@
 #include "formats/volume/chunk_reader.h"
 
-#include <cstring>
 #include <list>
 #include <unordered_map>
 #include <utility>
 #include <vector>
 
 #include "base/check.h"
+#include "field/copy_box.h"
 #include "formats/volume/sample_reader.h"
 
 namespace isoatlas {
@@ -47,20 +47,6 @@ private:
     std::int64_t bytes_ = 0, budget_;
 };
 
-/// Copies the samples of `part`, whose corner in `from` and `to` is given, between two arrays of these sizes.
-void copy_box(const Index3& part, std::span<const std::byte> from, const Index3& from_size, const Index3& from_corner,
-              std::span<std::byte> to, const Index3& to_size, const Index3& to_corner, std::size_t sample) {
-    const auto place = [sample](const Index3& size, const Index3& corner, std::int64_t y, std::int64_t z) {
-        return static_cast<std::size_t>(corner[0] + size[0] * (corner[1] + y + size[1] * (corner[2] + z))) * sample;
-    };
-    for (std::int64_t z = 0; z < part[2]; ++z) {
-        for (std::int64_t y = 0; y < part[1]; ++y) {
-            std::memcpy(to.data() + place(to_size, to_corner, y, z), from.data() + place(from_size, from_corner, y, z),
-                        static_cast<std::size_t>(part[0]) * sample);
-        }
-    }
-}
-
 class ChunkReader final : public VolumeReader {
 public:
     ChunkReader(VolumeInfo info, ReadChunk read_chunk, std::int64_t cache_bytes) : read_chunk_(std::move(read_chunk)), cache_(cache_bytes) {
@@ -96,7 +82,7 @@ private:
         const Index3 inside = min(corner + size, info_.extent.size);
         const Index3 begin = max(corner, box.begin), end = min(inside, box.end);
         const std::vector<std::byte>& samples = chunk_of(chunk, begin == corner && end == inside);
-        copy_box(end - begin, samples, size, begin - corner, out, box.size(), begin - box.begin, size_of(info_.type));
+        copy_box(end - begin, {samples, size, begin - corner}, {out, box.size(), begin - box.begin}, size_of(info_.type));
     }
 
     /// is_whole: no other box needs it soon.

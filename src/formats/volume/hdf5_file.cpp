@@ -181,14 +181,8 @@ Hdf5Array Hdf5File::array(const std::string& path) const {
     }
     if (H5Pget_layout(creation) == H5D_CHUNKED && H5Pget_chunk(creation, rank, dims.data()) == rank)
         array.chunk.assign(dims.begin(), dims.begin() + rank);
-    const int filters = H5Pget_nfilters(creation);
-    for (int i = 0; i < filters; ++i) {
-        unsigned flags = 0, config = 0;
-        std::size_t values = 0;
-        std::array<char, 64> name{};
-        const H5Z_filter_t id =
-            H5Pget_filter2(creation, static_cast<unsigned>(i), &flags, &values, nullptr, name.size() - 1, name.data(), &config);
-        std::string text = id == H5Z_FILTER_DEFLATE ? "gzip" : lower(name.data());
+    for (const auto& [id, name] : hdf5_filters(creation)) {
+        std::string text = id == H5Z_FILTER_DEFLATE ? "gzip" : lower(name);
         if (text.empty()) text = "filter " + std::to_string(id);
         array.encoding += (array.encoding.empty() ? "" : ", ") + text;
     }

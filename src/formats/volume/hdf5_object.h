@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "formats/volume/hdf5_driver.h"
 #include "formats/volume/hdf5_file.h"
@@ -21,5 +22,12 @@ struct Hdf5File::Data {
 };
 
 [[nodiscard]] Hdf5Type hdf5_type_of(hid_t type);
+
+struct Hdf5Filter {
+    H5Z_filter_t id;
+    std::string name;  ///< as the file calls it, or empty
+};
+/// Of the creation properties of an array.
+[[nodiscard]] std::vector<Hdf5Filter> hdf5_filters(hid_t creation);
 
 }  // namespace isoatlas

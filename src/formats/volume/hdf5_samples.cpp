@@ -54,19 +54,13 @@ std::string filter_name(H5Z_filter_t id, std::string name) {
 }
 
 void check_filters(const std::string& file, const std::string& path, hid_t creation) {
-    const int count = H5Pget_nfilters(creation);
-    for (int i = 0; i < count; ++i) {
-        unsigned flags = 0, config = 0;
-        std::size_t values = 0;
-        std::array<char, 64> name{};
-        const H5Z_filter_t id =
-            H5Pget_filter2(creation, static_cast<unsigned>(i), &flags, &values, nullptr, name.size() - 1, name.data(), &config);
+    for (const auto& [id, name] : hdf5_filters(creation)) {
         if (id >= 0 && H5Zfilter_avail(id) > 0) continue;
         throw Error(
             ErrorKind::unsupported,
             {.file = file,
              .where = shown_name(path),
-             .what = "the samples are compressed by the HDF5 filter " + filter_name(id, name.data()) + ", which is not installed here",
+             .what = "the samples are compressed by the HDF5 filter " + filter_name(id, name) + ", which is not installed here",
              .expected = "gzip, szip, shuffle or another filter of HDF5 itself",
              .next =
                  "install its plugin and name the folder in HDF5_PLUGIN_PATH, or write the array with gzip, for example with h5repack"});
@@ -283,6 +277,20 @@ private:
 };
 
 }  // namespace
+
+std::vector<Hdf5Filter> hdf5_filters(hid_t creation) {
+    std::vector<Hdf5Filter> filters;
+    const int count = H5Pget_nfilters(creation);
+    for (int i = 0; i < count; ++i) {
+        unsigned flags = 0, config = 0;
+        std::size_t values = 0;
+        std::array<char, 64> name{};
+        const H5Z_filter_t id =
+            H5Pget_filter2(creation, static_cast<unsigned>(i), &flags, &values, nullptr, name.size() - 1, name.data(), &config);
+        filters.push_back({id, name.data()});
+    }
+    return filters;
+}
 
 Hdf5Type hdf5_type_of(hid_t type) {
     const H5T_class_t kind = H5Tget_class(type);

@@ -11,6 +11,7 @@
 #include "formats/volume/choose.h"
 #include "formats/volume/formats.h"
 #include "formats/volume/raw_description.h"
+#include "isoatlas/dataset_path.h"
 #include "isoatlas/text.h"
 #include "isoatlas/units.h"
 #include "isoatlas/volume.h"
@@ -207,12 +208,12 @@ void check_choices(const VolumeInfo& info, const OpenOptions& options) {
     if (options.series && !volumes.has_series) refuse("series", Reason::no_series);
 }
 
-/// FILE:/DATASET as the file and OpenOptions::dataset, unless a file has that name.
+/// FILE:/DATASET as the file and OpenOptions::dataset.
 std::pair<std::string, OpenOptions> without_dataset(const std::string& path, OpenOptions options) {
-    const std::size_t colon = path.find(":/", is_address(path) ? path.find("//") + 2 : 0);
-    if (options.dataset || colon == 0 || colon == std::string::npos || (!is_address(path) && anything_at(path))) return {path, options};
-    options.dataset = path.substr(colon + 1);
-    return {path.substr(0, colon), options};
+    if (options.dataset) return {path, options};
+    const DatasetPath split = split_dataset(path);
+    if (!split.dataset.empty()) options.dataset = split.dataset;
+    return {split.file, options};
 }
 
 }  // namespace

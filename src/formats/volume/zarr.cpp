@@ -3,9 +3,9 @@
 // AXIS ORDER. The last axis of an array in C order is x, as with .npy, unless the metadata name the axes.
 #include "formats/volume/zarr.h"
 
-#include <ranges>
 #include <algorithm>
 #include <filesystem>
+#include <ranges>
 #include <utility>
 
 #include "formats/common/file_access.h"

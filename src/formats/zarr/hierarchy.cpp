@@ -1,7 +1,7 @@
 #include "formats/zarr/hierarchy.h"
 
-#include <ranges>
 #include <algorithm>
+#include <ranges>
 #include <set>
 #include <string_view>
 #include <utility>

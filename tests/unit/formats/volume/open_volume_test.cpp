@@ -1,7 +1,10 @@
 // open_volume: content decides, options must agree with headers, and every refusal says what next.
 #include <gtest/gtest.h>
-#include <sys/stat.h>
 
+#include <sys/stat.h>
+#include <filesystem>
+
+#include "isoatlas/dataset_path.h"
 #include "unit/formats/volume/volume_files.h"
 
 namespace isoatlas {
@@ -101,6 +104,18 @@ TEST(OpenVolume, OptionsMayRepeatAHeaderButNotContradictIt) {
     }
     same.time_step = 1;
     expect_reason(failure_of_loading(path, same), ErrorKind::usage, Reason::no_time_steps, "0");
+}
+
+TEST(DatasetPaths, FilesAndAddresses) {
+    const auto split = [](const std::string& path) { return split_dataset(path).file + "|" + split_dataset(path).dataset; };
+    EXPECT_EQ(split("scan.h5:/a/b"), "scan.h5|/a/b");
+    EXPECT_EQ(split("scan.h5"), "scan.h5|");
+    EXPECT_EQ(split(":/a"), ":/a|");
+    EXPECT_EQ(split("https://host/scan.nrrd"), "https://host/scan.nrrd|");
+    EXPECT_EQ(split("http://host:80/scan.h5:/a"), "http://host:80/scan.h5|/a");
+    const test::TestFolder folder;
+    std::filesystem::create_directory(folder / "odd.h5:");
+    EXPECT_EQ(split(folder.write("odd.h5:/name", "x")), (folder / "odd.h5:/name") + "|");
 }
 
 }  // namespace
