@@ -13,6 +13,7 @@ void File::prefetch(std::int64_t, std::int64_t) {}
 void File::prefetch_ranges(std::span<const FileRange> ranges) {
     for (const FileRange& range : ranges) prefetch(range.begin, range.bytes());
 }
+void File::fetch_ranges(std::span<const FileRange>) {}
 void File::drop_pages() {}
 std::ptrdiff_t File::write_at(std::int64_t, std::span<const std::byte>) { return -EBADF; }
 int File::resize(std::int64_t) { return -EBADF; }

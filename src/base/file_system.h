@@ -39,8 +39,10 @@ public:
     [[nodiscard]] virtual std::ptrdiff_t read_nowait(std::int64_t offset, std::span<std::byte> out);
     /// Hint that bytes, at least one, will be read soon (WILLNEED).
     virtual void prefetch(std::int64_t offset, std::int64_t bytes);
-    /// The same for several ranges, ascending and not empty. Files of other machines fetch them now, in few requests.
+    /// The same for several ranges, ascending and not empty.
     virtual void prefetch_ranges(std::span<const FileRange> ranges);
+    /// Files of other machines fetch such ranges now, in few requests, because single reads of them would follow; others do nothing.
+    virtual void fetch_ranges(std::span<const FileRange> ranges);
     /// Hint that no page of the file, which was synced, needs to stay in memory (DONTNEED).
     virtual void drop_pages();
     /// Writes at most bytes.size() bytes at offset; the number written, or -errno. A hole before offset reads as zeros.

@@ -114,10 +114,11 @@ public:
 
     void prefetch(std::int64_t offset, std::int64_t bytes) override {
         const FileRange range{offset, std::min(offset + bytes, version_.size)};
-        prefetch_ranges({&range, 1});
+        fetch_ranges({&range, 1});
     }
+    void prefetch_ranges(std::span<const FileRange> ranges) override { fetch_ranges(ranges); }
 
-    void prefetch_ranges(std::span<const FileRange> ranges) override {
+    void fetch_ranges(std::span<const FileRange> ranges) override {
         if (!whole_.empty()) return;
         std::vector<FileRange> wanted;  // what stays in memory until it is read
         std::int64_t left = std::min(kMostAnnounced, shared_->options.memory / 2);
@@ -224,6 +225,7 @@ public:
     std::ptrdiff_t read_nowait(std::int64_t offset, std::span<std::byte> out) override { return file_->read_nowait(offset, out); }
     void prefetch(std::int64_t offset, std::int64_t bytes) override { file_->prefetch(offset, bytes); }
     void prefetch_ranges(std::span<const FileRange> ranges) override { file_->prefetch_ranges(ranges); }
+    void fetch_ranges(std::span<const FileRange> ranges) override { file_->fetch_ranges(ranges); }
 
 private:
     std::shared_ptr<File> file_;

@@ -34,15 +34,15 @@ constexpr std::int64_t kExpectedGap = 16 << 10;  ///< max gap between two reads 
                                    .next = "the store is damaged: build it again from the volume"});
 }
 
-/// The bytes of all bricks. What the index of bricks is read from is prefetched together.
-const StoredArray& announced(const Container& store, const char* samples) {
+/// The bytes of all bricks. What the index of bricks is read from is fetched together.
+const StoredArray& with_fetched_index(const Container& store, const char* samples) {
     std::vector<const StoredArray*> index;
     for (const auto& [name, type] :
          {std::pair("volume/offset", "uint64"), std::pair("volume/checksum", "uint64"), std::pair("volume/bytes", "uint16"),
           std::pair("volume/low", samples), std::pair("volume/high", samples), std::pair("volume/lowest", "uint16"),
           std::pair("volume/highest", "uint16")})
         index.push_back(&store.contents().array(name, type));
-    store.prefetch(index);
+    store.fetch(index);
     return store.contents().array("volume/data", "uint8");
 }
 
@@ -53,7 +53,7 @@ constexpr const char* kWrongExtremes = "its extremes are not at the stored posit
 template <class T>
 BrickReader<T>::BrickReader(const Container& store)
     : store_(store),
-      data_(announced(store, name_of(value_type_of<T>))),
+      data_(with_fetched_index(store, name_of(value_type_of<T>))),
       is_negated_(polarity_of(store.contents().volume) == Polarity::low),
       grid_(store.contents().volume.extent),
       offset_(store.all<std::uint64_t>("volume/offset", "uint64")),

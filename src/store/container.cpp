@@ -91,20 +91,20 @@ Container::Container(const std::string& path, std::optional<Polarity> polarity, 
 
 void Container::prefetch(const StoredArray& array, std::vector<FileRange> ranges) const {
     for (FileRange& range : ranges) range.begin += array.offset, range.end += array.offset;
-    announce(std::move(ranges));
+    if (!ranges.empty()) file_->prefetch_ranges(ranges);
 }
 
-void Container::prefetch(std::span<const StoredArray* const> arrays) const {
+void Container::fetch(std::span<const StoredArray* const> arrays) const {
     std::vector<FileRange> ranges;
     for (const StoredArray* array : arrays) {
         ranges.push_back({array->checksums, array->checksums + array->index_bytes()});
         if (array->chunk == 0) ranges.push_back({array->offset, array->offset + array->bytes()});
     }
-    announce(std::move(ranges));
+    fetch(std::move(ranges));
 }
 
-/// Ranges of any order, which may overlap or be empty.
-void Container::announce(std::vector<FileRange> ranges) const {
+/// Ranges in any order, which may overlap or be empty.
+void Container::fetch(std::vector<FileRange> ranges) const {
     std::ranges::sort(ranges, {}, &FileRange::begin);
     std::vector<FileRange> apart;
     for (FileRange range : ranges) {
@@ -115,7 +115,7 @@ void Container::announce(std::vector<FileRange> ranges) const {
         else
             apart.push_back(range);
     }
-    if (!apart.empty()) file_->prefetch_ranges(apart);
+    if (!apart.empty()) file_->fetch_ranges(apart);
 }
 
 void Container::damaged(const std::string& where, const std::string& what) const {
@@ -155,7 +155,7 @@ void Container::read_header() {
 }
 
 bool Container::check_frame() {
-    announce({{file_size_ - kLastBytes, file_size_}});
+    fetch({{file_size_ - kLastBytes, file_size_}});
     std::vector<std::byte> bytes(static_cast<std::size_t>(kTrailerEnd));
     read_fully(*file_, path_, file_size_ - kTrailerEnd, bytes);
     const std::optional<std::int64_t> size = trailer_bytes(bytes, file_size_);
@@ -167,7 +167,7 @@ bool Container::check_frame() {
     std::vector<FileRange> ranges;
     for (const ByteRange& range : frame->ranges)
         ranges.push_back({static_cast<std::int64_t>(range.offset), static_cast<std::int64_t>(range.offset + range.bytes)});
-    announce(std::move(ranges));
+    fetch(std::move(ranges));
     Checksum sum;
     for (const ByteRange& range : frame->ranges) {
         for (std::uint64_t done = 0; done < range.bytes; done += bytes.size()) {
@@ -221,8 +221,8 @@ void Container::read(const StoredArray& array, std::int64_t first, std::span<std
     if (size == 0) return;
     if (array.chunk > 0) return read_chunks(array, first, out);
     const std::int64_t begin = first / array.block, end = (first + size + array.block - 1) / array.block;
-    announce({{array.checksums + 8 * begin, array.checksums + 8 * end},
-              {array.offset + begin * array.block, array.offset + std::min(end * array.block, array.bytes())}});
+    fetch({{array.checksums + 8 * begin, array.checksums + 8 * end},
+           {array.offset + begin * array.block, array.offset + std::min(end * array.block, array.bytes())}});
     const std::vector<std::uint64_t> sums = checksums_of(array, begin, end);
     std::vector<std::byte> edge(static_cast<std::size_t>(array.block));
     for (std::int64_t block = begin; block < end; ++block) {
@@ -249,7 +249,7 @@ std::vector<StoredChunk> Container::chunks_of(const StoredArray& array, std::int
     std::vector<FileRange> ranges;
     for (const StoredChunk& chunk : chunks)
         ranges.push_back({static_cast<std::int64_t>(chunk.offset), static_cast<std::int64_t>(chunk.offset + chunk.bytes)});
-    announce(std::move(ranges));
+    fetch(std::move(ranges));
     return chunks;
 }
 

@@ -65,8 +65,8 @@ public:
     void drop_pages() const { file_->drop_pages(); }
     /// Prefetches ranges of bytes of an array, ascending.
     void prefetch(const StoredArray& array, std::vector<FileRange> ranges) const;
-    /// Prefetches whole arrays with their checksums, together.
-    void prefetch(std::span<const StoredArray* const> arrays) const;
+    /// Of a store on another machine: fetches whole arrays with their checksums, together, before they are read.
+    void fetch(std::span<const StoredArray* const> arrays) const;
 
     /// The JSON text of the contents in the file.
     [[nodiscard]] std::string contents_text() const;
@@ -100,7 +100,7 @@ private:
     [[nodiscard]] std::vector<std::byte> read_chunk(const StoredArray& array, std::int64_t number, const StoredChunk& chunk) const;
     void read_chunks(const StoredArray& array, std::int64_t first, std::span<std::byte> out) const;
     [[noreturn]] void damaged(const std::string& where, const std::string& what) const;
-    void announce(std::vector<FileRange> ranges) const;
+    void fetch(std::vector<FileRange> ranges) const;
 
     std::string path_;
     std::unique_ptr<File> file_;
