@@ -9,12 +9,10 @@ import json
 import pathlib
 import re
 import shlex
-import shutil
 import subprocess
 import sys
 import tempfile
 
-LINKER = ["-fuse-ld=mold"] if shutil.which("mold") else []
 # What the probe runs: rooms, and files of others.
 ROOMS = ("base", "field", "critical", "tree", "zones", "analysis", "features", "persistence", "levelset", "mesh", "formats")
 FILES = ("server/request_head.cpp", "atlas/build_fingerprint.cpp")
@@ -81,6 +79,14 @@ def compile_command(commands, src, overlay, unit, output):
     return [compiler, *kept[:1], f"-I{overlay}", *kept[1:], "-O1", "-w", "-c", str(source), "-o", str(output)], entry["directory"]
 
 
+def link_command(build):
+    """(words before -o, words after its file) by which the probe itself is linked: whatever libraries it needs are in them."""
+    done = subprocess.run(["ninja", "-t", "commands", "-s", "tests/mutants/mutant_probe"], cwd=build, capture_output=True, text=True, check=True)
+    words = [word for word in shlex.split(done.stdout) if word not in (":", "&&")]
+    at = words.index("-o")
+    return words[:at], words[at + 2:]
+
+
 def check(arguments, commands, mutant):
     name = mutant["mutant"].split(":")[0]
     src = arguments.source / "src"
@@ -97,8 +103,8 @@ def check(arguments, commands, mutant):
             if done.returncode != 0:
                 return name, "DOES NOT COMPILE", done.stderr[:2000]
         probe = pathlib.Path(folder) / "probe"
-        link = [arguments.compiler, *LINKER, *arguments.probe, *objects, *arguments.libraries, "-o", probe]
-        done = subprocess.run([str(word) for word in link], capture_output=True, text=True)
+        before, after = arguments.link
+        done = subprocess.run([str(word) for word in (*before, *objects, "-o", probe, *after)], cwd=arguments.build, capture_output=True, text=True)
         if done.returncode != 0:
             return name, "DOES NOT LINK", done.stderr[:2000]
         try:
@@ -113,14 +119,11 @@ def check(arguments, commands, mutant):
 def main():
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--source", type=pathlib.Path, required=True)
-    parser.add_argument("--commands", type=pathlib.Path, required=True, help="compile_commands.json")
-    parser.add_argument("--compiler", required=True)
-    parser.add_argument("--probe", nargs="+", required=True, help="object files of the probe")
-    parser.add_argument("--libraries", nargs="+", required=True)
+    parser.add_argument("--build", type=pathlib.Path, required=True, help="folder of build.ninja and compile_commands.json")
     parser.add_argument("--only", help="names that contain this")
     arguments = parser.parse_args()
-    arguments.libraries = [word if word.startswith("/") else "-l" + word for word in arguments.libraries]
-    commands = {entry["file"]: entry for entry in json.loads(arguments.commands.read_text())}
+    arguments.link = link_command(arguments.build)
+    commands = {entry["file"]: entry for entry in json.loads((arguments.build / "compile_commands.json").read_text())}
     mutants = [m for m in parse(arguments.source / "tests/mutants/mutants.txt") if not arguments.only or arguments.only in m["mutant"]]
     bad = 0
     with concurrent.futures.ThreadPoolExecutor(2) as pool:
