@@ -11,6 +11,7 @@
 #include "data/assume_inputs.h"
 #include "data/network.h"
 #include "data/piped.h"
+#include "data/several.h"
 #include "data/sides.h"
 #include "options/arguments.h"
 #include "text/failure.h"
@@ -45,8 +46,11 @@ int run(const std::vector<std::string>& words, Terminal& terminal) {
     } else {
         use_network(arguments);
         Piped piped(arguments, terminal);
-        assume_inputs(arguments, terminal);
-        arguments = with_sides(arguments);
+        choose_one(arguments);
+        if (!builds_all(arguments)) {  // which does it for each volume
+            assume_inputs(arguments, terminal);
+            arguments = with_sides(arguments);
+        }
         const Verb& verb = *find_verb(arguments.verb);
         code = piped.run([&] {
             return runs_for_each_polarity(arguments) ? run_for_each_polarity(verb, arguments, terminal) : verb.run(arguments, terminal);

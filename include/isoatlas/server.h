@@ -2,12 +2,15 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "isoatlas/atlas.h"
 #include "isoatlas/build.h"
+#include "isoatlas/collection.h"
 #include "isoatlas/context.h"
 #include "isoatlas/error.h"
 #include "isoatlas/volume.h"
@@ -51,6 +54,13 @@ struct ServerOptions {
     bool is_read_only = false;  ///< names of objects cannot be changed
     ServerLink link{};
     SceneFile scene{};  ///< a page without a link to a view begins with it; none where its text is empty. See also Server::set_scene()
+
+    // Of a file of several channels or time steps, which pages have menus of: volume N is at /volume/N/.
+    Channels channels{};
+    std::int64_t first = 0;  ///< the volume of addresses without a number
+    /// Told of each page of another volume, and of a request that finds it closed, from any thread: whoever runs the server opens it. Must
+    /// return at once.
+    std::function<void(std::int64_t volume)> wanted{};
 };
 
 /// Listens on 127.0.0.1 alone. Requests and responses: docs/server.md. Writes nothing to any disk but what keep_token() does, and names
@@ -80,17 +90,20 @@ public:
     /// Thread safe; requests in progress are cancelled.
     void stop();
 
-    // Thread safe; shown by all open pages.
-    /// From now on requests are served from this store, which must live as long as this. low: the same store, open for objects of low
-    /// values, where both polarities are served.
-    void open(const Atlas& atlas, const Atlas* low = nullptr);
+    // Thread safe; shown by all open pages of the volume: a number below ServerOptions::channels.count(); nullopt: the first one.
+    using VolumeNumber = std::optional<std::int64_t>;
+    /// From now on requests are served from this store, which must live as long as this, or until close(). low: the same store, open for
+    /// objects of low values, where both polarities are served.
+    void open(const Atlas& atlas, const Atlas* low = nullptr, VolumeNumber volume = {});
+    /// No more requests are served from its store, which may end; false: there are pages of it, or requests. Of no other than the first.
+    [[nodiscard]] bool close(std::int64_t volume);
     /// Computes what every page requests first, from the store that is open, in advance; returns when it is done, has failed, or stop() was
     /// called. Requests meanwhile wait for the same result. Cost: the trees are read.
-    void prepare(const Context& context = {});
+    void prepare(const Context& context = {}, VolumeNumber volume = {});
     /// The store is being built.
-    void report_progress(const BuildState& state);
+    void report_progress(const BuildState& state, VolumeNumber volume = {});
     /// There will be no store. Another report_progress() or open() revokes it.
-    void fail(const Error& error);
+    void fail(const Error& error, VolumeNumber volume = {});
     /// The scene that pages in frames show, JSON (docs/scene.md): that which was set last, by one of them or set_scene(); else that of the
     /// options; empty: none. New pages begin with it.
     [[nodiscard]] std::string scene() const;

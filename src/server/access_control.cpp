@@ -7,6 +7,7 @@
 #include "server/response.h"
 #include "server/secret.h"
 #include "server/shared_scene.h"
+#include "server/target.h"
 
 namespace isoatlas {
 namespace {
@@ -28,7 +29,7 @@ std::string html(std::string_view content) {
 /// Redirects and keeps the fragment, which browsers never send. The request then comes from our own page, so that the browser sends its
 /// SameSite cookie.
 std::string html_that_goes_on(const std::string& first) {
-    return html("<script>" + first + "location.replace(\"/\"+location.hash)</script><noscript>The viewer needs JavaScript.</noscript>");
+    return html("<script>" + first + "location.replace(\"./\"+location.hash)</script><noscript>The viewer needs JavaScript.</noscript>");
 }
 
 std::string refused_page() {
@@ -166,7 +167,8 @@ std::optional<std::string> AccessControl::answer(const RequestHead& head) {
 }
 
 std::optional<std::string> AccessControl::whole_answer(const RequestHead& head) {
-    const std::string_view target = head.target, path = target.substr(0, target.find('?'));
+    const VolumeTarget of_volume = volume_target_of(head.target);
+    const std::string_view target = of_volume.rest, path = target.substr(0, target.find('?'));
     const bool opens_frame = head.method == "GET" && target.starts_with(kFrame), is_of_frame = has_frame_key(head);
     // Nothing that a browser adds by itself authorises a frame: it may stand below another name, such as that of a proxy.
     const bool is_ambient = !opens_frame && !is_of_frame;
@@ -184,7 +186,7 @@ std::optional<std::string> AccessControl::whole_answer(const RequestHead& head) 
     if (path != "/") return refusal(403);
     // A link on another site: the browser withholds the cookie, but sends it with the redirect from our own page.
     const bool led_here = head.fetch_site == "cross-site" || head.fetch_site == "same-site";
-    if (led_here) return last_answer({.status = 303, .fields = {{"Location", std::string(kEnter)}}}, {});
+    if (led_here) return last_answer({.status = 303, .fields = {{"Location", std::string(of_volume.prefix).append(kEnter)}}}, {});
     return refused_page();
 }
 

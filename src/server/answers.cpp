@@ -128,6 +128,16 @@ std::string address_json(const std::string& address) {
     return document("address", [&](JsonStream& json) { json.key("address").value(address); });
 }
 
+std::string volumes_json(const Channels& channels, std::int64_t volume) {
+    return document("volumes", [&](JsonStream& json) {
+        json.key("volume").value(volume).key("channels").begin_array();
+        for (const std::string& name : channels.names) json.value(name);
+        json.end_array().key("time_steps").value(channels.time_steps).key("times").begin_array();
+        for (const double time : channels.times) json.value(time);
+        json.end_array().key("time_unit").value(channels.time_unit);
+    });
+}
+
 std::string error_json(const Error& error) {
     return document("error", [&](JsonStream& json) { put_error(json, error); });
 }

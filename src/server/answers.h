@@ -9,6 +9,7 @@
 
 #include "catalogue/page_contents.h"
 #include "isoatlas/atlas.h"
+#include "isoatlas/collection.h"
 #include "isoatlas/error.h"
 #include "isoatlas/measures.h"
 #include "isoatlas/render.h"
@@ -42,6 +43,8 @@ struct AtVoxel {
 /// calibration: for the values of the tents, which are stored ones.
 [[nodiscard]] std::string transfer_json(std::span<const OpacityTent> tents, const Calibration& calibration);
 [[nodiscard]] std::string address_json(const std::string& address);
+/// volume: the number of that which the page shows.
+[[nodiscard]] std::string volumes_json(const Channels& channels, std::int64_t volume);
 [[nodiscard]] std::string error_json(const Error& error);
 /// On one line. pending: jobs of the listening client. scene: the version of the shared one.
 [[nodiscard]] std::string events_json(const StoreState::State& state, const std::vector<JobQueues::Pending>& pending, std::uint64_t scene);

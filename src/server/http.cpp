@@ -12,11 +12,12 @@
 #include "server/answers.h"
 #include "server/coding.h"
 #include "server/network.h"
+#include "server/query_parameters.h"
 #include "server/response.h"
 #include "server/secret.h"
-#include "server/service.h"
 #include "server/target.h"
 #include "server/token_file.h"
+#include "server/volume_services.h"
 
 namespace isoatlas {
 namespace {
@@ -50,7 +51,7 @@ private:
 
 struct Server::Data {
     const std::string token;
-    Service service;
+    VolumeServices services;
     const std::int64_t most_on_its_way;
     std::atomic<std::int64_t> on_its_way = 0;
     std::optional<PrivateFile> kept{};
@@ -59,7 +60,7 @@ struct Server::Data {
 
     Data(const ServerOptions& options, const Context& context)
         : token(checked_token(options.token.empty() ? options.link.token : options.token)),
-          service(token, context, {.memory = options.memory, .is_read_only = options.is_read_only, .scene = options.scene}),
+          services(token, options, context),
           most_on_its_way(options.memory > 0 ? options.memory : available_memory() / 4),
           network(
               options.port > 0 ? options.port : options.link.port, options.port == 0,
@@ -70,17 +71,22 @@ struct Server::Data {
 
     /// An authorised request. True: another request may follow.
     bool answer(const RequestHead& head, const std::string& body, const Peer& peer) {
-        Target target = target_of(head.target);
+        const VolumeTarget of_volume = volume_target_of(head.target);
+        Target target = target_of(of_volume.rest);
         if (target.path == "/") target.words.clear();
         const Request request{
             target.path, std::move(target.words), token, head.client, [peer] { return peer.is_gone(); }, head.method == "PUT", body};
         try {
             if (request.path == "/frame") return send_frame(head, peer);
-            Response answer = on_its_way > most_on_its_way     ? too_much()
-                              : request.path == "/api/address" ? new_address(request)
-                                                               : service.answer(request);
+            if (on_its_way > most_on_its_way) return send(head, too_much(), peer);
+            if (request.path == "/api/address") return send(head, new_address(request), peer);
+            const VolumeServices::Use service = services.use(of_volume.volume, request.path == "/");
+            if (request.path == "/api/volumes") return send(head, volumes(request, of_volume.volume), peer);
+            Response answer = service->answer(request);
             if (answer.events) return send_events(head, answer, peer);
             return send(head, std::move(answer), peer);
+        } catch (const Error& error) {
+            return send(head, refused(404, error), peer);
         } catch (const std::bad_alloc&) {  // nothing has been sent
             (void)peer.send(AccessControl::refusal(503));
             return false;
@@ -90,6 +96,15 @@ struct Server::Data {
     static Response refused(int status, const Error& error) { return {status, "application/json", error_json(error)}; }
     static Response too_much() {
         return refused(503, Error(ErrorKind::resource, {.what = "too many bytes are being sent to clients", .next = "retry later"}));
+    }
+
+    Response volumes(const Request& request, std::optional<std::int64_t> volume) const {
+        try {
+            QueryParameters(request.words).reject_unknown();
+            return {200, "application/json", volumes_json(services.channels(), services.number_of(volume))};
+        } catch (const Error& error) {
+            return refused(400, error);
+        }
     }
 
     Response new_address(const Request& request) {
@@ -110,7 +125,7 @@ struct Server::Data {
             (void)peer.send(AccessControl::refused_frame());  // another request has used it meanwhile
             return false;
         }
-        Response page = service.answer({"/", {}, token, head.client});
+        Response page = services.first()->answer({"/", {}, token, head.client});
         if (const std::size_t place = page.bytes.find(kPageHead); place != std::string::npos)
             page.bytes.insert(place + kPageHead.size(), "<meta name=\"isoatlas-frame\" content=\"" + *key + "\">");
         page.may_be_framed = true;
@@ -155,22 +170,27 @@ void Server::keep_token() { data_->kept.emplace(token_file(port()), data_->token
 void Server::run() { data_->network.run(); }
 
 void Server::stop() {
-    data_->service.end();
+    data_->services.end();
     data_->network.stop();
 }
 
-void Server::open(const Atlas& atlas, const Atlas* low) { data_->service.store_state().open(atlas, low); }
-void Server::prepare(const Context& context) {
+void Server::open(const Atlas& atlas, const Atlas* low, VolumeNumber volume) {
+    data_->services.use(volume)->store_state().open(atlas, low);
+}
+bool Server::close(std::int64_t volume) { return data_->services.close(volume); }
+void Server::prepare(const Context& context, VolumeNumber volume) {
     try {
-        data_->service.prepare(context);
+        data_->services.use(volume)->prepare(context);
     } catch (const Error&) {           // the client receives the error
     } catch (const std::bad_alloc&) {  // a request tries again
     }
 }
 std::string Server::address_for_one_frame() { return data_->access.address_for_one_frame(); }
-std::string Server::scene() const { return data_->service.scene(); }
-void Server::set_scene(const std::string& text) { data_->service.set_scene(text); }
-void Server::report_progress(const BuildState& state) { data_->service.store_state().report_progress(state); }
-void Server::fail(const Error& error) { data_->service.store_state().fail(error); }
+std::string Server::scene() const { return data_->services.first()->scene(); }
+void Server::set_scene(const std::string& text) { data_->services.first()->set_scene(text); }
+void Server::report_progress(const BuildState& state, VolumeNumber volume) {
+    data_->services.use(volume)->store_state().report_progress(state);
+}
+void Server::fail(const Error& error, VolumeNumber volume) { data_->services.use(volume)->store_state().fail(error); }
 
 }  // namespace isoatlas

@@ -40,4 +40,17 @@ Target target_of(std::string_view text) {
     return target;
 }
 
+VolumeTarget volume_target_of(std::string_view target) {
+    constexpr std::string_view kVolume = "/volume/";
+    constexpr std::size_t kMaxDigits = 9;
+    if (!target.starts_with(kVolume)) return {{}, {}, target};
+    const std::size_t end = target.find('/', kVolume.size());
+    const std::string_view digits = target.substr(kVolume.size(), end == std::string_view::npos ? end : end - kVolume.size());
+    std::int64_t number = 0;
+    const auto [last, error] = std::from_chars(digits.data(), digits.data() + digits.size(), number);
+    const bool is_number = error == std::errc() && last == digits.data() + digits.size() && number >= 0 && digits.size() <= kMaxDigits;
+    if (end == std::string_view::npos || !is_number) return {{}, {}, target};
+    return {number, target.substr(0, end), target.substr(end)};
+}
+
 }  // namespace isoatlas

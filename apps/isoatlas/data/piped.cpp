@@ -53,7 +53,7 @@ void Piped::take_output(Arguments& arguments) {
         return;
     }
     if (arguments.json) refuse("--json and -o - both need standard output", "give -o the name of a file, or omit --json");
-    if (arguments.split || arguments.polarity == PolarityChoice::both)
+    if (arguments.split || (arguments.verb == "build" && arguments.all) || arguments.polarity == PolarityChoice::both)
         refuse("standard output takes one file", "give -o the name of a file: several are written");
     const std::string extension = extension_of(arguments);
     arguments.output = output_ = folder() + "/standard-output" + extension;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -12,6 +13,8 @@
 #include "options/object_reference.h"
 
 namespace isoatlas::cli {
+
+struct Several;
 
 enum class LabelChoice : std::uint8_t { automatic, yes, no };
 
@@ -34,6 +37,7 @@ struct Arguments {
 
     // Input
     OpenOptions open;
+    std::shared_ptr<const Several> several;  ///< the volumes of the file, where there is a menu of them (data/several.h)
     MissingPolicy missing;
     std::optional<SampleBox> box;       ///< only this part of the volume
     std::optional<std::int64_t> cache;  ///< bytes on disk for files of other machines

@@ -117,6 +117,7 @@ void name_options(CLI::App& app, Arguments& /*arguments*/, Typed& typed) {
 void build_options(CLI::App& app, Arguments& arguments, Typed& typed) {
     add_output(app, arguments, ".atlas", false);
     add_build(app, arguments, typed);
+    app.add_flag("--all", arguments.all, "Every channel and time step: -o is a folder that gets a store of each, and an index");
     app.add_flag("--dry-run", arguments.dry_run, "Only estimate memory, disk and time; needs no --output");
 }
 

@@ -182,6 +182,7 @@ BuildReport build_store(const Arguments& arguments, Terminal& terminal, VolumeRe
 }
 
 int run_build(const Arguments& arguments, Terminal& terminal) {
+    if (builds_all(arguments)) return run_build_all(arguments, terminal);
     if (!arguments.output.empty()) {
         check_output(arguments, {".atlas"});
     } else if (!arguments.dry_run) {

@@ -6,8 +6,8 @@
 
 #include <fmt/format.h>
 
-#include "data/input.h"
 #include "data/session.h"
+#include "data/several.h"
 #include "data/source.h"
 #include "text/choices.h"
 #include "text/document.h"
@@ -235,25 +235,6 @@ void print_text(Terminal& terminal, const VolumeInfo& info, const Values& values
                                    .next = "isoatlas build " + shell_word(arguments.file) + " -o FILE.atlas; or isoatlas objects --tau T"});
 }
 
-/// Opens the file; where the user has left a channel or time step open, the first one.
-std::unique_ptr<VolumeReader> open_any(Arguments& arguments, std::vector<std::string>& notes) {
-    for (;;) {
-        try {
-            return open_input(arguments).reader;
-        } catch (const Error& error) {
-            if (error.reason() == Reason::channel_needed && !arguments.open.channel) {
-                arguments.open.channel = "0";
-                notes.emplace_back("this is the first channel; --channel chooses another one");
-            } else if (error.reason() == Reason::time_step_needed && !arguments.open.time_step) {
-                arguments.open.time_step = 0;
-                notes.emplace_back("this is the first time step; --time-step chooses another one");
-            } else {
-                throw;
-            }
-        }
-    }
-}
-
 /// A file of several things that share no grid is a list of them.
 int list_choices(const Error& error, const Arguments& arguments, Terminal& terminal) {
     std::vector<std::string> words{"info", arguments.file};
@@ -271,6 +252,19 @@ int list_choices(const Error& error, const Arguments& arguments, Terminal& termi
     return 0;
 }
 
+/// Of a collection of stores.
+FileVolumes volumes_of(const Several& several) {
+    const Channels& channels = several.channels;
+    FileVolumes volumes;
+    if (channels.names.size() > 1) volumes.channels = channels.names;
+    volumes.channel = channels.channel_of(several.first);
+    volumes.time_steps = channels.time_steps;
+    volumes.time_step = channels.time_step_of(several.first);
+    volumes.times = channels.times;
+    volumes.time_unit = channels.time_unit;
+    return volumes;
+}
+
 int describe_input(Arguments arguments, Terminal& terminal) {
     Session session(arguments, terminal);
     VolumeInfo info;
@@ -281,6 +275,7 @@ int describe_input(Arguments arguments, Terminal& terminal) {
         check_store_options(arguments, atlas);
         const std::array<double, 2> range = atlas.range();
         info = atlas.info();
+        if (arguments.several) info.volumes = volumes_of(*arguments.several);
         info.notes.push_back("built with " + interpolant_text(info, atlas.interpolant(), atlas.tunnel_height()) +
                              polarities_text(atlas.polarities()));
         values.known = true, values.low = range[0], values.high = range[1];
@@ -288,7 +283,7 @@ int describe_input(Arguments arguments, Terminal& terminal) {
     } else {
         if (arguments.tau) refuse_tau(arguments);
         std::vector<std::string> notes;
-        const std::unique_ptr<VolumeReader> reader = open_any(arguments, notes);
+        const std::unique_ptr<VolumeReader> reader = open_first(arguments, notes);
         info = reader->info();
         values = read_values(*reader, session);
         info.notes = reader->info().notes;  // notes found at the end of the file

@@ -112,7 +112,7 @@ const std::vector<Verb> kVerbs{
      "VOLUME",
      "Write a store: a volume, its trees and its bricks in one file that all verbs read.",
      {"isoatlas build scan.nii.gz -o scan.atlas", "isoatlas build scan.nii.gz -o smooth.atlas --gaussian 1.5",
-      "isoatlas build scan.nii.gz -o scan.atlas --json"},
+      "isoatlas build cells.ome.zarr --all -o cells.atlases", "isoatlas build scan.nii.gz -o scan.atlas --json"},
      run_build},
     {"convert",
      "VOLUME",

@@ -41,6 +41,9 @@ BuildReport build_store(const Arguments& arguments, Terminal& terminal, VolumeRe
                         const std::function<void(const Progress&)>& watch = {},
                         const std::function<void(const std::string&, const Context&)>& high_values = {});
 int run_build(const Arguments& arguments, Terminal& terminal);
+/// build --all: its inputs are not assumed yet, as those of each volume are of their own.
+[[nodiscard]] bool builds_all(const Arguments& arguments);
+int run_build_all(const Arguments& arguments, Terminal& terminal);
 int run_name(const Arguments& arguments, Terminal& terminal);
 int run_label(const Arguments& arguments, Terminal& terminal);
 int run_convert(const Arguments& arguments, Terminal& terminal);

@@ -11,6 +11,7 @@
 #include "data/input.h"
 #include "data/session.h"
 #include "data/store_awaited.h"
+#include "data/viewed.h"
 #include "text/advice.h"
 #include "text/document.h"
 #include "text/interrupt.h"
@@ -119,13 +120,11 @@ void keep_token(Server& server, Terminal& terminal) {
     }
 }
 
-/// The viewer is about isovalues, which mean nothing between labels.
-[[noreturn]] void refuse_labels(const Arguments& arguments) {
-    const std::string file = shell_word(arguments.file) + reading_options(arguments);
-    throw Error(ErrorKind::usage, {.file = arguments.file,
-                                   .what = "the samples look like labels, and the viewer shows objects at isovalues",
-                                   .next = "isoatlas " + file + " makes a page with a card for each label; isoatlas render " + file +
-                                           " draws them; --labels no views the samples as values"});
+void tell_of_others(const Arguments& arguments, Terminal& terminal) {
+    if (!arguments.several) return;
+    const Channels& channels = arguments.several->channels;
+    terminal.say("note: " + volume_text(channels, arguments.several->first) + "; the page has menus of all " +
+                 std::to_string(channels.count()) + " volumes of the file");
 }
 
 /// Prints a new address at each Enter.
@@ -146,41 +145,38 @@ void wait_for_the_end(const Arguments& arguments, Terminal& terminal, Server& se
 }  // namespace
 
 int run_view(const Arguments& arguments, Terminal& terminal) {
-    if (arguments.inputs.are_labels) refuse_labels(arguments);
+    Viewed viewed(arguments);
     keep_memory_flat();
     const SceneFile scene = scene_of(arguments);
-    const std::string store = store_to_view(arguments);
-    AtlasOptions options{.cache_bytes = arguments.memory, .polarity = arguments.side()};
-    if (store == arguments.file) options.corrections = corrections_of(arguments);
+    const std::string& store = viewed.store;
     for (const std::string& note : arguments.inputs.assumed) terminal.say("note: " + note);
-    std::optional<Atlas> atlas, low;  // of a store of both two
-    const auto open_store = [&] {
-        atlas.emplace(store, options);
-        if (arguments.side() || atlas->polarities() != PolarityChoice::both) return;
-        AtlasOptions of_low = options;
-        of_low.polarity = Polarity::low;
-        low.emplace(store, of_low);
-    };
+    tell_of_others(arguments, terminal);
     if (is_ready(arguments, terminal, store)) {
-        open_store();
-        check_is_volume(arguments, atlas->info());
+        viewed.open();
+        check_is_volume(arguments, viewed.atlas->info());
     }
-    check_scene_of(arguments, scene, atlas);
+    check_scene_of(arguments, scene, viewed.atlas);
+    OtherVolumes others(arguments.several, terminal);
     ServerOptions server_choices = server_options(arguments, store);
     server_choices.scene = scene;
+    if (arguments.several) {
+        server_choices.channels = arguments.several->channels;
+        server_choices.first = arguments.several->first;
+        server_choices.wanted = [&others](std::int64_t volume) { others.want(volume); };
+    }
     Server server(server_choices, context_of(arguments));
     tell_of_links(server_choices, server, terminal);
     keep_token(server, terminal);
-    if (atlas) server.open(*atlas, low ? &*low : nullptr);
+    if (viewed.atlas) viewed.show(server);
     const Answering answering(server);
     print_address(arguments, terminal, server, store);
     if (!arguments.no_browser) open_in_browser(server.address_for_one_use());
     int code = 0;
-    if (!atlas) {
+    if (!viewed.atlas) {
         try {
             await_store(arguments, terminal, store, [&server](const BuildState& state) { server.report_progress(state); });
-            open_store();
-            server.open(*atlas, low ? &*low : nullptr);
+            viewed.open();
+            viewed.show(server);
         } catch (const Error& error) {
             if (interrupted()) return 0;
             server.fail(with_options(error));  // the page shows it too
@@ -188,7 +184,9 @@ int run_view(const Arguments& arguments, Terminal& terminal) {
             terminal.say("note: there is no store to show, see the page; Ctrl-C ends the viewer with exit code " + std::to_string(code));
         }
     }
-    if (atlas) prepare(server);
+    if (viewed.atlas) prepare(server);
+    std::jthread opening;  // after the first volume: one build at a time
+    if (arguments.several) opening = std::jthread([&](const std::stop_token& stop) { others.run(stop, server); });
     wait_for_the_end(arguments, terminal, server);
     return code;
 }

@@ -9,7 +9,7 @@
 
 #include "base/atomic_file.h"
 #include "formats/common/byte_writer.h"
-#include "formats/common/file_access.h"
+#include "formats/common/json_file.h"
 #include "isoatlas/text.h"
 
 namespace isoatlas {
@@ -18,16 +18,12 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr const char* kSchema = "isoatlas/names/1";
-constexpr std::int64_t kLongestFile = std::int64_t{16} << 20;
+constexpr const char* kDamaged = "the file of names is damaged";
+constexpr const char* kNext = "correct it, or delete it: the names are lost then, nothing else";
 constexpr std::size_t kLongestName = 100;
-constexpr int kDeepest = 4;
 
 [[noreturn]] void damaged(const std::string& path, const std::string& where, const std::string& expected) {
-    throw Error(ErrorKind::input, {.file = path,
-                                   .where = where,
-                                   .what = "the file of names is damaged",
-                                   .expected = expected,
-                                   .next = "correct it, or delete it: the names are lost then, nothing else"});
+    throw Error(ErrorKind::input, {.file = path, .where = where, .what = kDamaged, .expected = expected, .next = kNext});
 }
 
 bool is_digits(std::string_view text) {
@@ -52,25 +48,8 @@ std::string problem_of(const std::string& name) {
     return is_reference(name) ? "it would be taken for the number of an object" : "";
 }
 
-std::string text_of(const std::string& path) {
-    const std::unique_ptr<File> file = open_file(path);
-    if (file->size() > kLongestFile) damaged(path, "", "at most 16 MiB");
-    std::string bytes(static_cast<std::size_t>(file->size()), '\0');
-    read_fully(*file, path, 0, std::as_writable_bytes(std::span(bytes.data(), bytes.size())));
-    return bytes;
-}
-
 Json document_of(const std::string& path) {
-    const std::string text = text_of(path);
-    int depth = 0;  // the parser uses recursion
-    for (const char c : text) {
-        if (c == '{' || c == '[') ++depth;
-        if (c == '}' || c == ']') --depth;
-        if (depth > kDeepest) damaged(path, "", "a JSON object with an array of names");
-    }
-    Json json = Json::parse(text, nullptr, false);
-    if (json.is_discarded() || !json.is_object()) damaged(path, "", "a JSON object");
-    if (json.value("schema", Json()) != kSchema) damaged(path, "schema", kSchema);
+    Json json = read_json_file(path, kSchema, kDamaged, kNext);
     if (!json.contains("names") || !json["names"].is_array()) damaged(path, "names", "an array");
     return json;
 }

@@ -32,6 +32,7 @@ import { Viewport } from "./scene/viewport";
 import { NOTHING, type State } from "./state/state";
 import { addIsovalueSteps } from "./panels/isovalue_steps";
 import { firstToShow } from "../shared/cards";
+import { cameraOf, commonHash, VolumeMenu } from "./panels/volume_menu";
 import { addThemeAction } from "./context/theme";
 import { Tour } from "./tour";
 import { ownKey, takeFrameKey, waitForPage } from "./waiting";
@@ -65,6 +66,7 @@ class Viewer implements ViewerContext {
     readonly page: Page,
     readonly catalogue: Catalogue,
     linked: State | null,
+    volumes: VolumeMenu | null,
     main: HTMLElement,
   ) {
     this.history = new History(linked ?? NOTHING);
@@ -75,7 +77,8 @@ class Viewer implements ViewerContext {
     this.proposal = new TransferProposal(api, page);
     this.panels = new PanelSwitch(main);
     addUnitTool(this, () => this.renewTitles()); // first: all others make text with lengths
-    this.objectList = new ObjectListPanel(this);
+    this.objectList = new ObjectListPanel(this, volumes?.element ?? null);
+    if (volumes) volumes.hash = () => commonHash({ ...this.history.now, view: this.viewport.rig.view });
     addIsovalueSteps(this);
     this.axis = new IsovaluePanel(this);
     addSceneActions(this);
@@ -97,8 +100,11 @@ class Viewer implements ViewerContext {
     this.actions.listen(document);
     this.listenToClicks();
     if (linked) this.show(linked, NOTHING, false);
-    else if (page.entries.length > 0) this.editor.init(firstOf(page, location.hash));
-    else {
+    else if (page.entries.length > 0) {
+      this.editor.init(firstOf(page, location.hash));
+      const view = cameraOf(location.hash) ?? this.history.now.view;
+      this.history.amend({ ...this.history.now, view });
+    } else {
       this.show(NOTHING, NOTHING, false);
       this.notify("No objects to show: all of them are below noise level.");
     }
@@ -182,14 +188,15 @@ async function firstState(api: Api, page: Page, catalogue: Catalogue): Promise<{
 async function start(main: HTMLElement): Promise<void> {
   const api = new Api(ownKey(), ".", takeFrameKey());
   try {
-    const page = await waitForPage(api, main);
+    const volumes = await VolumeMenu.of(api);
+    const page = await waitForPage(api, main, volumes?.element ?? null);
     document.title = `${page.volume.name} – isoatlas`;
     if (page.volume.size.length !== 3)
       throw new Error("The viewer needs a 3D volume. For a 2D image, run isoatlas with the name of its file to write a page.");
     const catalogue = new Catalogue(page);
     const { state, problem, version } = await firstState(api, page, catalogue);
     if (state && needsAll(page, state) && !catalogue.isLoaded) catalogue.load(await api.branches(MAX_LISTED));
-    const viewer = new Viewer(api, page, catalogue, state, main);
+    const viewer = new Viewer(api, page, catalogue, state, volumes, main);
     if (problem !== "") viewer.notify(problem);
     const allKnown = viewer.loadCatalogue();
     if (api.isInFrame) new SceneChannel(viewer, version, allKnown).begin();

@@ -54,9 +54,11 @@ class LoadingCard {
   constructor(
     main: HTMLElement,
     private readonly isInFrame: boolean,
+    volumes: HTMLElement | null,
     private readonly onOpen: () => void,
   ) {
     document.body.append(this.note, this.busy);
+    if (volumes) this.card.append(volumes);
     main.append(this.card);
   }
 
@@ -121,13 +123,13 @@ class LoadingCard {
 
 /**
  * The page, as soon as the store is open; shows the progress of the build until then. Keeps the event stream open, so
- * that the server knows of this client.
+ * that the server knows of this client. volumes: menus that are there meanwhile.
  */
-export async function waitForPage(api: Api, main: HTMLElement): Promise<Page> {
+export async function waitForPage(api: Api, main: HTMLElement, volumes: HTMLElement | null): Promise<Page> {
   let waiting: LoadingCard | undefined;
   let identity = "";
   await new Promise<void>((resolve) => {
-    const own = (waiting = new LoadingCard(main, api.isInFrame, resolve));
+    const own = (waiting = new LoadingCard(main, api.isInFrame, volumes, resolve));
     const listen = async (): Promise<void> => {
       try {
         for await (const state of api.events()) {

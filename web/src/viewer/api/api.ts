@@ -86,6 +86,18 @@ export interface SharedScene {
   isOwn: boolean;
 }
 
+/** Channels and time steps of the file, of which the page shows one volume: docs/schema/server-volumes.schema.json */
+export interface Volumes {
+  /** number of the page's: channel + channels * time step */
+  volume: number;
+  /** "" without a name */
+  channels: string[];
+  time_steps: number;
+  /** of the time steps, or empty */
+  times: number[];
+  time_unit: string;
+}
+
 /** There is no connection to the server, which the page says once (waiting.ts). */
 export class ConnectionError extends Error {
   constructor() {
@@ -128,6 +140,10 @@ export class Api {
     const page = readPage(await (await this.request("/api/atlas", PAGE_CHANNEL)).text());
     if (page === null) throw new Error("The response of the server is not an atlas. Reload the page.");
     return page;
+  }
+
+  async volumes(): Promise<Volumes> {
+    return (await this.request("/api/volumes", "volumes")).json() as Promise<Volumes>;
   }
 
   /** The scene with which the server was started, or which was set since. */

@@ -46,7 +46,11 @@ export class ObjectListPanel {
   /** tabs that do not show the current result yet */
   private readonly stale = new Set<TabName>(["cards", "list", "tree"]);
 
-  constructor(private readonly context: ViewerContext) {
+  /** volumes: menus of the volumes of the file. */
+  constructor(
+    private readonly context: ViewerContext,
+    volumes: HTMLElement | null,
+  ) {
     const { page, editor: selector, catalogue, pictures } = context;
     this.cards = new ItemsTab("cards", (i) => card(page, i, selector, pictures));
     this.list = new ItemsTab("rows", (i) => row(page, i, selector));
@@ -62,7 +66,7 @@ export class ObjectListPanel {
       "list of objects",
       (name) => this.open(name),
     );
-    const head = [html("h1", {}, page.volume.name), this.words, this.hidden(), this.finder];
+    const head = [html("h1", {}, page.volume.name), ...(volumes ? [volumes] : []), this.words, this.hidden(), this.finder];
     this.element = html("nav", { class: "objects", "aria-label": "objects" }, ...head, this.tabs.element);
     for (const input of [this.text, this.order]) input.addEventListener("input", () => this.refresh(context.history.now));
     const [first, changed] = [() => this.showFirst(), () => this.refresh(context.history.now)];
