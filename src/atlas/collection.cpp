@@ -115,7 +115,12 @@ bool is_collection(const std::string& path) {
 Collection read_collection(const std::string& path) {
     const std::string index = index_of(path);
     const Json json = read_json_file(index, kSchema, kDamaged, kNext);
-    Collection collection{folder_of(index), text_at(json, "volume", index, ""), channels_at(json, index), {}};
+    std::string folder = folder_of(index);
+    if (folder.size() > 1) folder.pop_back();  // the slash
+    Collection collection;  // member by member: g++ 12 destroys what an aggregate has not made yet when an initializer throws
+    collection.folder = folder;
+    collection.volume = text_at(json, "volume", index, "");
+    collection.channels = channels_at(json, index);
     collection.stores.resize(static_cast<std::size_t>(collection.channels.count()));
     const Json& stores = member(json, "stores", index, "");
     if (!stores.is_array() || std::ssize(stores) != collection.channels.count())

@@ -149,7 +149,7 @@ Response Service::answer_known(const Request& request) {
                 {.where = request.path.substr(0, 100),
                  .what = "no such path",
                  .expected = "/api/ and one of: events, atlas, preview, objects, measures, branches, card, surface, "
-                             "surfaces, label, segmentation, slice, volume, at, transfer, scene, names, name, address",
+                             "surfaces, label, segmentation, slice, volume, at, transfer, scene, names, name, volumes, address",
                  .next = "docs/server.md lists the requests"});
 }
 

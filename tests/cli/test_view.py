@@ -296,6 +296,14 @@ class View(harness.CliTest):
         many = [self.json_of("/api/address")["address"] for _ in range(17)]
         self.assertEqual([self.opened(address)[0] for address in many], [403] + 16 * [200])
 
+    def test_a_store_is_the_one_volume(self):
+        document = self.json_of("/api/volumes")
+        self.assert_schema(document, "server-volumes")
+        self.assertEqual((document["volume"], document["channels"], document["time_steps"]), (0, [""], 1))
+        self.assertEqual(self.json_of("/volume/0/api/atlas"), self.json_of("/api/atlas"))
+        self.assertEqual(self.ask("/volume/1/api/atlas")[0], 404)
+        self.assertEqual(self.ask("/api/volumes?x=1")[0], 400)
+
     def test_the_desktop_opens_an_address_for_one_use(self):
         """Every user of the machine sees the words of xdg-open and of the browser."""
         folder = self.folder / "desktop"

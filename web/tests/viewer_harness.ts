@@ -47,13 +47,13 @@ export class Served {
     return Served.begin(...made(phantom), options);
   }
 
-  /** An existing volume. */
-  static async file(path: string): Promise<Served> {
+  /** An existing volume. isBuilt: its store is there before the viewer; else the viewer builds it. */
+  static async file(path: string, isBuilt = true): Promise<Served> {
     const folder = mkdtempSync(join(tmpdir(), "isoatlas-viewer-"));
     const name = basename(path).replace(/\..*/, "");
     const extension = basename(path).slice(name.length);
     symlinkSync(path, join(folder, name + extension));
-    build(folder, name, extension);
+    if (isBuilt) build(folder, name, extension);
     return Served.begin(folder, name, [], extension);
   }
 

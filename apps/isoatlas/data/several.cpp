@@ -17,7 +17,9 @@ OpenOptions completed(OpenOptions open, const Channels& channels) {
 }
 
 void choose_store(Arguments& arguments) {
-    Several several{arguments, {}, read_collection(arguments.file), 0};
+    Several several;
+    several.arguments = arguments;
+    several.collection = read_collection(arguments.file);
     several.channels = several.collection->channels;
     const bool takes_first = arguments.verb == "view" || arguments.verb == "info";
     several.first = choose_volume(*several.collection, takes_first ? completed(arguments.open, several.channels) : arguments.open);
@@ -26,7 +28,8 @@ void choose_store(Arguments& arguments) {
 }
 
 void choose_volume_of_file(Arguments& arguments) {
-    Several several{arguments, {}, {}, 0};
+    Several several;
+    several.arguments = arguments;
     Arguments own = arguments;
     std::vector<std::string> notes;
     try {

@@ -87,7 +87,8 @@ Json json_of(const Collection& collection, const std::vector<BuiltStore>& stores
 bool builds_all(const Arguments& arguments) { return arguments.verb == "build" && arguments.all; }
 
 int run_build_all(const Arguments& arguments, Terminal& terminal) {
-    Several several{arguments, {}, {}, 0};
+    Several several;
+    several.arguments = arguments;
     several.arguments.all = false;
     Arguments first = several.arguments;
     std::vector<std::string> notes;

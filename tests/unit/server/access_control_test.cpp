@@ -7,6 +7,7 @@
 #include <set>
 
 #include "server/shared_scene.h"
+#include "server/target.h"
 
 namespace isoatlas {
 namespace {
@@ -73,6 +74,26 @@ TEST_F(DoorTest, OtherNamesMethodsAndBodiesAreRefusedBeforeTheToken) {
     asked.method = "GET";
     asked.has_body = true;
     EXPECT_EQ(status(asked), 413);
+}
+
+TEST_F(DoorTest, VolumesHaveTheSameDoor) {
+    RequestHead asked = head("/volume/12/api/atlas");
+    EXPECT_EQ(status(asked), 403);
+    asked.authorization = "Bearer 0123456789abcdef";
+    EXPECT_EQ(status(asked), 200);
+    asked.has_body = true;
+    EXPECT_EQ(status(asked), 413);
+    RequestHead linked = head("/volume/12/");
+    linked.fetch_site = "cross-site";
+    const std::optional<std::string> redirected = access_.answer(linked);
+    ASSERT_TRUE(redirected);
+    EXPECT_NE(redirected->find("Location: /volume/12/enter\r\n"), std::string::npos) << *redirected;
+    EXPECT_EQ(status(head("/volume/12/enter")), 200);
+    EXPECT_EQ(status(head("/volume/12/../api/atlas")), 403);
+    for (const char* other : {"/volume/12", "/volume//", "/volume/-1/", "/volume/x/", "/volume/1234567890/"})
+        EXPECT_FALSE(volume_target_of(other).volume) << other;
+    EXPECT_EQ(volume_target_of("/volume/12/api/at?voxel=1").rest, "/api/at?voxel=1");
+    EXPECT_EQ(volume_target_of("/volume/12/api/at?voxel=1").volume, 12);
 }
 
 TEST_F(DoorTest, OnlyAScenesBodyIsRead) {
