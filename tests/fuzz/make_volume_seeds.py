@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Writes the seeds of the NRRD, MetaImage, NumPy, MRC, legacy VTK, Zarr, DICOM and RAW targets into tests/fuzz/corpus (the files are committed; this says how they were made)."""
+"""Writes the seeds of the NRRD, MetaImage, NumPy, MRC, Amira, BOV, legacy VTK, Zarr, DICOM and RAW targets into tests/fuzz/corpus (the files are committed; this says how they were made)."""
 import gzip
 import io
 import json
@@ -90,6 +90,36 @@ def zarr_seeds():
         write("zarr", name, archive.getvalue())
 
 
+def amira_seeds():
+    def mesh(arrays, sections, first="BINARY-LITTLE-ENDIAN 2.1", parameters='CoordType "uniform", BoundingBox 0 1 0 2 0 3', more=""):
+        text = f"# AmiraMesh {first}\n# seed\ndefine Lattice 2 3 4\n{more}Parameters {{ Units {{ Coordinates \"um\" }} {parameters} }}\n{arrays}\n"
+        return text.encode() + b"".join(b"@%d\n%s\n" % (i + 1, section) for i, section in enumerate(sections))
+
+    runs, packed = b"\x05a\x82bc\x7fd\x00e\x80", zlib.compress(SAMPLES)
+    write("amira", "raw", mesh("Lattice { short Data } @1", [SAMPLES], "BINARY 1.9"))
+    write("amira", "runs", mesh(f"Lattice {{ byte Labels }} = @1(HxByteRLE,{len(runs)})", [runs], parameters="Materials { Exterior { Id 1 } A { Color 1 0.5 0 } }"))
+    write("amira", "zip", mesh(f"Lattice {{ ushort Data }} @1(HxZip,{len(packed)})", [packed], parameters="TransformationMatrix 0 1 0 0 -1 0 0 0 0 0 1 0 1 2 3 1"))
+    lines = b"".join(struct.pack("<f", place) for place in (0, 2, 0, 1, 3, 0, 1, 2, 5))
+    write("amira", "lines", mesh("Coordinates { float xyz } @1\nLattice { byte Data } @2", [lines, SAMPLES[:24]], parameters='CoordType "rectilinear"', more="define Coordinates 9\n"))
+    write("amira", "vectors", mesh("Lattice { byte[2] Data } @1", [SAMPLES]))
+    write("amira", "several", mesh("Lattice { byte A } @1\nLattice { byte B } @2", [SAMPLES[:24], SAMPLES[24:]]))
+    write("amira", "text", mesh("Lattice { float Data } @1", [b" ".join(b"%d" % i for i in range(24))], "3D ASCII 2.0"))
+
+
+def text_header_seeds():
+    bov = "# seed\nTIME: 1.5\nDATA_FILE: {}\nDATA_SIZE: 2 3 4\nDATA_FORMAT: {}\nDATA_ENDIAN: BIG\nVARIABLE: v\nBRICK_ORIGIN: 1 2 3\nBRICK_SIZE: 2 3 4\nCENTERING: {}\n{}"
+    write("bov", "nodal", bov.format("v.raw", "BYTE", "nodal", "BYTE_OFFSET: 9\n").encode())
+    write("bov", "zonal", bov.format("v.raw", "FLOAT", "zonal", "DATA_COMPONENTS: 2\n").encode())
+    write("bov", "gzip", bov.format("v.gz", "SHORT", "nodal", "").encode())
+    write("bov", "bricks", bov.format("v%03d", "BYTE", "nodal", "DIVIDE_BRICK: true\nDATA_BRICKLETS: 1 3 4\n").encode())
+    write("raw_header", "library", b"ObjectFileName:\tv.raw\nTaggedFileName: ---\nResolution: 2 3 4\nSliceThickness: 1 2 0.5\nFormat: UCHAR\nByteOffset: 60\nObjectModel: I\nGridType: EQUIDISTANT\n")
+    write("raw_header", "inviwo", b"RawFile: v.raw\nRawFile: w.raw\nResolution: 2 3 4\nFormat: Vec2UINT8\nByteOffset: 4\nLittleEndian: true\nBasisVector1: 0 4 0\nBasisVector2: -6 0 0\nBasisVector3: 0 0 2\nOffset: 1 2 3\n")
+    sizes = "".join(f"<Extents>{size}</Extents>" for size in (2, 3, 4))
+    write("raw_header", "mipav", ('<?xml version="1.0"?>\n<image filename="v.raw" nDimensions="3"><Dataset-attributes><Image-offset>7</Image-offset><Data-type>Short</Data-type>'
+                                  f"<Endianess>Big</Endianess>{sizes}<Resolutions><Resolution>1</Resolution><Resolution>2</Resolution></Resolutions><Units>Millimeters</Units>"
+                                  "<Origin>1</Origin></Dataset-attributes></image>\n").encode())
+
+
 def element(tag, vr, value, implicit=False):
     value += b"\0" if len(value) % 2 and vr == "UI" else b" " * (len(value) % 2)
     head = struct.pack("<HH", tag >> 16, tag & 0xFFFF)
@@ -120,6 +150,8 @@ def sequence(tag, *items):
 
 def main():
     zarr_seeds()
+    amira_seeds()
+    text_header_seeds()
     oriented = (
         "type: short\ndimension: 3\nspace: left-posterior-superior\nsizes: 2 3 4\nspace directions: (1,0,0) (0,1,0) (0,0,2)\n"
         'space units: "mm" "mm" "mm"\nspace origin: (1,2,3)\nkinds: domain domain domain\nendian: little\n'

@@ -37,6 +37,16 @@ using FirstBytes = std::span<const std::byte>;
 [[nodiscard]] bool looks_like_mrc(FirstBytes first, const std::string& path);
 [[nodiscard]] std::unique_ptr<VolumeReader> open_mrc(const std::string& path, const OpenOptions& options);
 
+[[nodiscard]] bool looks_like_amira(FirstBytes first, const std::string& path);
+[[nodiscard]] std::unique_ptr<VolumeReader> open_amira(const std::string& path, const OpenOptions& options);
+
+[[nodiscard]] bool looks_like_bov(FirstBytes first, const std::string& path);
+[[nodiscard]] std::unique_ptr<VolumeReader> open_bov(const std::string& path, const OpenOptions& options);
+
+/// Headers of RAW files: .dat of volume libraries and Inviwo, .xml of MIPAV.
+[[nodiscard]] bool looks_like_raw_header(FirstBytes first, const std::string& path);
+[[nodiscard]] std::unique_ptr<VolumeReader> open_raw_header(const std::string& path, const OpenOptions& options);
+
 [[nodiscard]] bool looks_like_vtk_legacy(FirstBytes first, const std::string& path);
 [[nodiscard]] std::unique_ptr<VolumeReader> open_vtk_legacy(const std::string& path, const OpenOptions& options);
 

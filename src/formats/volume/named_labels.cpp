@@ -4,10 +4,12 @@
 #include <map>
 #include <optional>
 
+#include "formats/common/byte_source.h"
 #include "formats/common/byte_writer.h"
 #include "formats/common/file_access.h"
 #include "formats/common/header_text.h"
 #include "formats/common/text.h"
+#include "formats/volume/amira_header.h"
 #include "formats/volume/nrrd_header.h"
 #include "formats/volume/segmentation_table.h"
 #include "isoatlas/segmentation.h"
@@ -93,6 +95,18 @@ std::vector<NamedLabel> labels_of_table(const std::string& path) {
     return labels;
 }
 
+bool is_amira(const std::string& path) {
+    const std::vector<std::byte> first = read_header_bytes(path, 16);
+    return begins_like_amira({reinterpret_cast<const char*>(first.data()), first.size()});
+}
+
+std::vector<NamedLabel> labels_of_materials(const std::string& path) {
+    std::vector<NamedLabel> labels = amira_materials(path);
+    for (NamedLabel& named : labels) named.name = one_line(named.name);
+    std::erase_if(labels, [](const NamedLabel& named) { return named.name.empty(); });
+    return labels;
+}
+
 }  // namespace
 
 std::string segment_table_path(const std::string& path) {
@@ -103,7 +117,10 @@ std::string segment_table_path(const std::string& path) {
 std::vector<NamedLabel> named_labels(const std::string& path) {
     std::vector<NamedLabel> labels;
     try {
-        labels = ends_with_ignoring_case(path, ".nrrd") ? labels_of_header(path) : std::vector<NamedLabel>{};
+        if (ends_with_ignoring_case(path, ".nrrd"))
+            labels = labels_of_header(path);
+        else if (is_amira(path))
+            labels = labels_of_materials(path);
         if (labels.empty()) labels = labels_of_table(path);
     } catch (const Error& error) {
         if (error.kind() == ErrorKind::cancelled) throw;

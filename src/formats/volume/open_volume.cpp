@@ -22,7 +22,8 @@ namespace {
 constexpr std::int64_t kFirstBytes = 4096;
 constexpr const char* kSupported =
     "NRRD (.nrrd .nhdr), MetaImage (.mha .mhd), NIfTI-1 (.nii .nii.gz), NumPy (.npy), VTK image (.vti .vtk), TIFF (.tif), MRC (.mrc .map), "
-    "DICOM, HDF5 (.h5 .ims .vtkhdf), NetCDF (.nc), OME-Zarr and Zarr (a folder, or .zip), a folder of slices, RAW";
+    "DICOM, HDF5 (.h5 .ims .vtkhdf), NetCDF (.nc), Amira (.am), BOV (.bov), OME-Zarr and Zarr (a folder, or .zip), a folder of slices, RAW "
+    "(also by its .dat or .xml)";
 
 struct ReadFormat {
     const char* name;
@@ -31,7 +32,7 @@ struct ReadFormat {
     std::unique_ptr<VolumeReader> (*open)(const std::string&, const OpenOptions&);
 };
 
-constexpr std::array<ReadFormat, 12> kReadFormats = {
+constexpr std::array<ReadFormat, 15> kReadFormats = {
     {{"DICOM", ".dcm .dicom .ima", looks_like_dicom, open_dicom},  // its preamble may be a TIFF file
      {"NRRD", ".nrrd .nhdr", looks_like_nrrd, open_nrrd},
      {"NIfTI", ".nii .nii.gz", looks_like_nifti, open_nifti},
@@ -40,10 +41,13 @@ constexpr std::array<ReadFormat, 12> kReadFormats = {
      {"VTK legacy", ".vtk", looks_like_vtk_legacy, open_vtk_legacy},
      {"TIFF", ".tif .tiff", looks_like_tiff, open_tiff},
      {"MRC", ".mrc .map .ccp4 .rec .st .ali .mrcs", looks_like_mrc, open_mrc},
+     {"Amira", ".am .amiramesh", looks_like_amira, open_amira},
      {"Zarr", ".zip .ozx", looks_like_zip, open_zarr_zip},
      {"MetaImage", ".mha .mhd", looks_like_metaimage, open_metaimage},
      {"NetCDF", ".nc .nc4 .netcdf", looks_like_netcdf, open_netcdf},
-     {"HDF5", ".h5 .hdf5 .he5 .ims .nxs .nx5 .vtkhdf .jld2", looks_like_hdf5, open_hdf5}}};
+     {"HDF5", ".h5 .hdf5 .he5 .ims .nxs .nx5 .vtkhdf .jld2", looks_like_hdf5, open_hdf5},
+     {"BOV", ".bov", looks_like_bov, open_bov},
+     {"a header of RAW files", "", looks_like_raw_header, open_raw_header}}};  // other files may have these names
 
 /// Common formats that isoatlas does not read, and how to convert them.
 constexpr std::array<std::pair<std::string_view, const char*>, 6> kForeign = {

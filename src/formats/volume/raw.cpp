@@ -1,5 +1,6 @@
 // RAW: samples without a header. Their description comes from the options, from a JSON sidecar and from the file name, in this order (see
-// raw_description.h); options about the samples that contradict the sidecar are an error, both override the name.
+// raw_description.h); options about the samples that contradict the sidecar are an error, both override the name. Without a sidecar a
+// header beside it that names it is read instead (raw_header.h).
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -11,6 +12,7 @@
 #include "formats/volume/axes.h"
 #include "formats/volume/formats.h"
 #include "formats/volume/raw_description.h"
+#include "formats/volume/raw_header.h"
 #include "formats/volume/sample_reader.h"
 
 namespace isoatlas {
@@ -161,6 +163,12 @@ void check_size(const std::string& path, const Extent& extent, ValueType type, s
 
 std::unique_ptr<VolumeReader> open_raw(const std::string& path, const OpenOptions& options) {
     const std::int64_t file_bytes = file_size(path);
+    if (!(options.dims && options.type) && !find_sidecar(path)) {
+        if (const std::optional<std::string> header = find_raw_header(path)) {
+            if (!options.follow_links) require_own_folder(path, *header);
+            return open_raw_header(*header, options);
+        }
+    }
     RawDescription known = collect(path, options);
     if (!known.dims || !known.type) unknown_shape(path, known);
     VolumeInfo info;

@@ -1,0 +1,7 @@
+// The reader of .dat and .xml headers of RAW files takes any bytes: a documented error or a sound volume.
+#include "formats/volume/formats.h"
+#include "fuzz/volume_target.h"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+    return fuzz::open_and_read(isoatlas::open_raw_header, data, size);
+}
