@@ -20,6 +20,7 @@ demo|libtiff-dev|TIFF stacks
 demo|libpugixml-dev|VTK XML files
 demo|libhdf5-dev|stores, VTKHDF files, HDF5 and NetCDF volumes
 demo|libgdcm-dev|compressed DICOM files
+demo|libopenvdb-dev|OpenVDB files
 demo|libblosc-dev|compressed chunks of Zarr arrays
 demo|liblz4-dev|the same
 demo|libcurl4-openssl-dev|files on web servers
@@ -58,6 +59,7 @@ test|python3-nbclient|the notebook of the Python package
 test|python3-ipykernel|the same
 test|python3-venv|a virtual environment for its wheel
 test|python3-nibabel|independent reader of the NIfTI files we write
+test|python3-openvdb|independent reader and writer of OpenVDB files
 test|python3-mrcfile|independent reader and writer of MRC maps
 test|python3-zarr|independent reader and writer of Zarr arrays
 test|python3-pydicom|independent reader and writer of DICOM files

@@ -121,7 +121,7 @@ class Atlas:
         return self._source.volume(call()).samples
 
     def save(self, path: Path) -> None:
-        """Writes the samples as .nrrd, .npy, .raw, .mha, .mrc, .vti, .nii, .nii.gz or .tif, as ``isoatlas convert``."""
+        """Writes the samples as .nrrd, .npy, .raw, .mha, .mrc, .vdb, .vti, .nii, .nii.gz or .tif, as ``isoatlas convert``."""
         self._source.volume(call()).write(os.fspath(path))
 
     def __repr__(self) -> str:

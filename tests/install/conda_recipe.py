@@ -18,6 +18,7 @@ COUNTERPARTS = {
     "libpugixml-dev": ("host", "pugixml"), "libhdf5-dev": ("host", "hdf5"), "libxxhash-dev": ("host", "xxhash"),
     "libcurl4-openssl-dev": ("host", "libcurl"),
     "libgdcm-dev": ("host", "gdcm"),
+    "libopenvdb-dev": ("host", "openvdb"),
     "libdeflate-dev": ("host", "libdeflate"), "libqhull-dev": ("host", "qhull"), "libembree-dev": ("host", "embree"),
     "libwebp-dev": ("host", "libwebp-base"), "libboost-dev": ("host", "libboost-headers"), "libmeshoptimizer-dev": ("host", "meshoptimizer"),
     "libzstd-dev": ("host", "zstd"), "libblosc-dev": ("host", "blosc"), "liblz4-dev": ("host", "lz4-c"),

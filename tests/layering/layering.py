@@ -85,6 +85,7 @@ DOORS = {
     r"hdf5\.h": r"src/formats/common/hdf5_(handle\.h|layout\.cpp)|src/formats/volume/hdf5_(file|samples|driver|object)\.(h|cpp)|tests/.*",
     r"xxhash\.h": r"src/codec/checksum\.h|src/remote/disk_cache\.cpp",
     r"curl/.*": r"src/remote/(address|transfer|http_client)\.(h|cpp)",
+    r"openvdb/.*": r"src/formats/volume/vdb_openvdb\.cpp",
     r"gdcm.*\.h": r"src/formats/volume/dicom_gdcm\.cpp",
     r"gtest/.*|gmock/.*|rapidcheck.*": r"tests/.*",
     r"benchmark/.*": r"bench/.*",

@@ -47,6 +47,10 @@ using FirstBytes = std::span<const std::byte>;
 [[nodiscard]] bool looks_like_raw_header(FirstBytes first, const std::string& path);
 [[nodiscard]] std::unique_ptr<VolumeReader> open_raw_header(const std::string& path, const OpenOptions& options);
 
+/// Of a build without OpenVDB: Error{unsupported, Reason::built_without_format}.
+[[nodiscard]] bool looks_like_vdb(FirstBytes first, const std::string& path);
+[[nodiscard]] std::unique_ptr<VolumeReader> open_vdb(const std::string& path, const OpenOptions& options);
+
 [[nodiscard]] bool looks_like_vtk_legacy(FirstBytes first, const std::string& path);
 [[nodiscard]] std::unique_ptr<VolumeReader> open_vtk_legacy(const std::string& path, const OpenOptions& options);
 

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "formats/common/text.h"
+#include "formats/volume/vdb.h"
 #include "formats/volume/write_zarr.h"
 
 namespace isoatlas {
@@ -25,7 +26,7 @@ SampleFeed narrowed(std::span<const std::uint32_t> labels) {
     };
 }
 
-constexpr const char* kEnds[] = {".nrrd", ".nii", ".nii.gz", ".tif", ".tiff", ".zarr"};
+constexpr const char* kEnds[] = {".nrrd", ".nii", ".nii.gz", ".tif", ".tiff", ".vdb", ".zarr"};
 
 }  // namespace
 
@@ -50,7 +51,7 @@ void check_labels(const std::string& path, const VolumeInfo& info, std::span<con
     if (std::ranges::any_of(kEnds, [&](const char* end) { return ends_with_ignoring_case(path, end); })) return;
     throw Error(ErrorKind::usage, {.file = path,
                                    .what = "the name does not say in which format to write labels",
-                                   .expected = "a name that ends in .nrrd, .nii, .nii.gz, .tif or .zarr",
+                                   .expected = "a name that ends in .nrrd, .nii, .nii.gz, .tif, .vdb or .zarr",
                                    .next = "change the extension of the output file"});
 }
 
@@ -60,6 +61,7 @@ void write_label_file(Sink& sink, const VolumeInfo& header, const SampleFeed& fe
     if (ends(".nrrd")) return write_nrrd(sink, header, feed, Packing::gzip, pairs);
     if (ends(".nii")) return write_nifti(sink, header, feed, Packing::raw);
     if (ends(".nii.gz")) return write_nifti(sink, header, feed, Packing::gzip);
+    if (ends(".vdb")) return write_vdb_labels(sink, header, feed);
     write_tiff(sink, header, feed, pairs);
 }
 

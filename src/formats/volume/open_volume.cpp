@@ -22,7 +22,8 @@ namespace {
 constexpr std::int64_t kFirstBytes = 4096;
 constexpr const char* kSupported =
     "NRRD (.nrrd .nhdr), MetaImage (.mha .mhd), NIfTI-1 (.nii .nii.gz), NumPy (.npy), VTK image (.vti .vtk), TIFF (.tif), MRC (.mrc .map), "
-    "DICOM, HDF5 (.h5 .ims .vtkhdf), NetCDF (.nc), Amira (.am), BOV (.bov), OME-Zarr and Zarr (a folder, or .zip), a folder of slices, RAW "
+    "DICOM, HDF5 (.h5 .ims .vtkhdf), NetCDF (.nc), Amira (.am), OpenVDB (.vdb), BOV (.bov), OME-Zarr and Zarr (a folder, or .zip), a "
+    "folder of slices, RAW "
     "(also by its .dat or .xml)";
 
 struct ReadFormat {
@@ -32,7 +33,7 @@ struct ReadFormat {
     std::unique_ptr<VolumeReader> (*open)(const std::string&, const OpenOptions&);
 };
 
-constexpr std::array<ReadFormat, 15> kReadFormats = {
+constexpr std::array<ReadFormat, 16> kReadFormats = {
     {{"DICOM", ".dcm .dicom .ima", looks_like_dicom, open_dicom},  // its preamble may be a TIFF file
      {"NRRD", ".nrrd .nhdr", looks_like_nrrd, open_nrrd},
      {"NIfTI", ".nii .nii.gz", looks_like_nifti, open_nifti},
@@ -42,6 +43,7 @@ constexpr std::array<ReadFormat, 15> kReadFormats = {
      {"TIFF", ".tif .tiff", looks_like_tiff, open_tiff},
      {"MRC", ".mrc .map .ccp4 .rec .st .ali .mrcs", looks_like_mrc, open_mrc},
      {"Amira", ".am .amiramesh", looks_like_amira, open_amira},
+     {"OpenVDB", ".vdb", looks_like_vdb, open_vdb},
      {"Zarr", ".zip .ozx", looks_like_zip, open_zarr_zip},
      {"MetaImage", ".mha .mhd", looks_like_metaimage, open_metaimage},
      {"NetCDF", ".nc .nc4 .netcdf", looks_like_netcdf, open_netcdf},

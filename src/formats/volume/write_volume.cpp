@@ -2,6 +2,7 @@
 #include "base/atomic_file.h"
 #include "formats/common/text.h"
 #include "formats/common/volume_file.h"
+#include "formats/volume/vdb.h"
 #include "formats/volume/write_zarr.h"
 #include "isoatlas/output.h"
 #include "isoatlas/polarity.h"
@@ -23,6 +24,7 @@ constexpr WrittenFormat kWrittenFormats[] = {
     {".mha", write_metaimage},
     {".vti", write_vti},
     {".mrc", write_mrc},
+    {".vdb", write_vdb},
     {".nii", [](Sink& sink, const VolumeInfo& info, const SampleFeed& samples) { write_nifti(sink, info, samples, Packing::raw); }},
     {".nii.gz", [](Sink& sink, const VolumeInfo& info, const SampleFeed& samples) { write_nifti(sink, info, samples, Packing::gzip); }},
     {".tif", [](Sink& sink, const VolumeInfo& info, const SampleFeed& samples) { write_tiff(sink, info, samples); }},
@@ -43,10 +45,11 @@ Writer checked_writer(const std::string& path, const Volume& volume) {
     for (const WrittenFormat& format : kWrittenFormats) {
         if (ends_with_ignoring_case(path, format.end)) return format.write;
     }
-    throw Error(ErrorKind::usage, {.file = path,
-                                   .what = "the name does not say in which format to write the volume",
-                                   .expected = "a name that ends in .nrrd, .nii, .nii.gz, .mha, .mrc, .vti, .npy, .tif, .raw or .zarr",
-                                   .next = "change the extension of the output file"});
+    throw Error(ErrorKind::usage,
+                {.file = path,
+                 .what = "the name does not say in which format to write the volume",
+                 .expected = "a name that ends in .nrrd, .nii, .nii.gz, .mha, .mrc, .vdb, .vti, .npy, .tif, .raw or .zarr",
+                 .next = "change the extension of the output file"});
 }
 
 SampleFeed feed_of(const Volume& volume) {
