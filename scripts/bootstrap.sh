@@ -63,7 +63,7 @@ test|python3-openvdb|independent reader and writer of OpenVDB files
 test|python3-mrcfile|independent reader and writer of MRC maps
 test|python3-zarr|independent reader and writer of Zarr arrays
 test|python3-pydicom|independent reader and writer of DICOM files
-test|python3-tifffile|independent reader of the TIFF files we write
+test|python3-tifffile|independent reader and writer of TIFF files
 test|chromium|opens the page
 test|python3-pil|independent reader of the pictures we write
 test|python3-h5py|independent reader of stores, writer of HDF5 volumes

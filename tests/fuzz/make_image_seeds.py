@@ -143,6 +143,12 @@ def main():
     write("tiff", "behind", tiff(pages=1, description=b"ImageJ=1.5\nimages=2\nslices=2\n") + SAMPLES)
     ome = b'<OME><Image><Pixels SizeC="1" SizeT="2" SizeZ="1" DimensionOrder="XYTZC" PhysicalSizeX="2"/></Image></OME>'
     write("tiff", "ome", tiff(description=ome))
+    pixels = b'<OME UUID="a"><Image><Pixels SizeX="4" SizeY="3" SizeZ="2" SizeC="1" SizeT="1" DimensionOrder="XYCZT">%s</Pixels></Image></OME>'
+    files = b"".join(b'<TiffData FirstZ="%d" IFD="%d"><UUID FileName="%s">b</UUID></TiffData>' % (z, z, name) for z, name in enumerate((b"fuzz", b"b.tif")))
+    write("tiff", "ome_files", tiff(description=pixels % files))
+    write("tiff", "ome_planes", tiff(description=pixels % b'<TiffData IFD="0" PlaneCount="2"/>'))
+    write("tiff", "ome_elsewhere", tiff(description=b'<OME><BinaryOnly MetadataFile="b.tif"/></OME>'))
+    write("tiff", "hyperstack", tiff(description=b"ImageJ=1.5\nimages=2\nchannels=1\nslices=1\nframes=2\nfinterval=2\n"))
 
 
 if __name__ == "__main__":

@@ -3,13 +3,10 @@
 #include <filesystem>
 #include <system_error>
 
-#include "base/check.h"
-#include "formats/common/byte_source.h"
 #include "formats/common/natural_order.h"
 #include "formats/common/own_folder.h"
 #include "formats/common/text.h"
 #include "formats/volume/formats.h"
-#include "formats/volume/sample_reader.h"
 #include "formats/volume/tiff_stack.h"
 
 namespace isoatlas {
@@ -67,73 +64,25 @@ Listing list_folder(const std::string& path) {
                                    .next = "name the folder that holds the slices, or a volume file"});
 }
 
-class FolderReader final : public VolumeReader {
-public:
-    FolderReader(VolumeInfo info, std::vector<std::string> files, std::vector<std::int64_t> first_page, bool skip_rest)
-        : files_(std::move(files)), first_page_(std::move(first_page)), skip_rest_(skip_rest) {
-        info_ = std::move(info);
-        tidy_texts(info_);
-        page_bytes_ = info_.extent.slice() * static_cast<std::int64_t>(size_of(info_.type));
-    }
+[[noreturn]] void misfit(const std::string& path, const std::string& is, const std::string& wanted, const std::string& first_file) {
+    throw Error(ErrorKind::input, {.file = path,
+                                   .what = "the slice is " + is,
+                                   .expected = wanted + " like " + fs::path(first_file).filename().string(),
+                                   .next = "all slices of a folder must have one size and type: move other images elsewhere"});
+}
 
-    void read(std::int64_t z_begin, std::int64_t z_end, std::span<std::byte> out) override {
-        ISOATLAS_CHECK(0 <= z_begin && z_begin <= z_end && z_end <= info_.extent.size[2]);
-        ISOATLAS_CHECK(static_cast<std::int64_t>(out.size()) == (z_end - z_begin) * page_bytes_);
-        for (std::int64_t z = z_begin; z < z_end; ++z) {
-            const auto begin = static_cast<std::size_t>((z - z_begin) * page_bytes_);
-            read_page(z, out.subspan(begin, static_cast<std::size_t>(page_bytes_)));
-        }
+/// Checks that the pages of a file match the first one and adds them to the volume.
+void add_file(TiffFile& file, const TiffPage& first, TiffVolume& volume, VolumeInfo& info) {
+    for (const TiffPage& page : file.pages()) {
+        if (!page.same_shape(first)) misfit(file.path(), page.shape(), first.shape(), volume.files[0]);
+        volume.slices.push_back(
+            {.file = static_cast<std::uint32_t>(volume.files.size() - 1), .directory = page.directory, .number = page.number});
     }
-
-private:
-    void read_page(std::int64_t z, std::span<std::byte> out) {
-        const auto file = static_cast<std::size_t>(std::upper_bound(first_page_.begin(), first_page_.end(), z) - first_page_.begin()) - 1;
-        if (!open_ || open_index_ != file) {
-            open_ = std::make_unique<TiffFile>(files_[file], skip_rest_);
-            open_index_ = file;
-        }
-        const std::int64_t page = z - first_page_[file];
-        const std::vector<TiffPage>& pages = open_->pages();
-        if (page >= static_cast<std::int64_t>(pages.size()) || pages[0].bytes() != page_bytes_ || pages[0].width != info_.extent.size[0]) {
-            throw Error(
-                ErrorKind::input,
-                {.file = files_[file], .what = "the file has changed since the volume was opened", .next = "open the folder again"});
-        }
-        open_->read(page, out);
-    }
-
-    std::vector<std::string> files_;
-    std::vector<std::int64_t> first_page_;  ///< of each file
-    std::unique_ptr<TiffFile> open_;        ///< one file at a time, because of the limit of open files
-    std::size_t open_index_ = 0;
-    bool skip_rest_;
-    std::int64_t page_bytes_ = 0;
-};
-
-/// Checks that a file matches the first one and adds it to the volume.
-void add_file(const TiffFile& file, const std::string& first_file, VolumeInfo& info) {
-    const TiffPage& page = file.pages()[0];
-    const auto shape = [](std::int64_t width, std::int64_t height, ValueType type) {
-        return std::to_string(width) + " x " + std::to_string(height) + " " + name_of(type);
-    };
-    const std::string is = shape(page.width, page.height, page.type), wanted = shape(info.extent.size[0], info.extent.size[1], info.type);
-    if (is != wanted) {
-        throw Error(ErrorKind::input, {.file = file.path(),
-                                       .what = "the slice is " + is,
-                                       .expected = wanted + " like " + fs::path(first_file).filename().string(),
-                                       .next = "all slices of a folder must have one size and type: move other images elsewhere"});
-    }
-    info.extent.size[2] += static_cast<std::int64_t>(file.pages().size());
     info.file_bytes += file.bytes();
 }
 
-void describe_first(const TiffFile& file, VolumeInfo& info) {
-    const TiffPage& page = file.pages()[0];
-    info.encoding = file.encoding();
+void describe_first(TiffFile& file, VolumeInfo& info) {
     info.data_file = file.path();
-    info.type = page.type;
-    info.big_endian = file.big_endian();
-    info.extent = {.rank = 3, .size = {page.width, page.height, 0}};
     info.description = file.tags().description;
     const TiffDescription description = parse_tiff_description(info.description);
     info.geometry = tiff_geometry(file.tags(), description, 2, info.notes);
@@ -151,26 +100,27 @@ std::unique_ptr<VolumeReader> open_folder(const std::string& path, const OpenOpt
         if (dicom) return dicom;
         no_slices(path, listing);
     }
-    (void)choose_time_step(path, options, 1);
     VolumeInfo info;
     info.path = path;
     info.format = "TIFF slices";
-    std::vector<std::int64_t> first_page;
+    TiffVolume volume{.files = {}, .slices = {}, .pixel = {}, .skip_rest = options.skip_rest};
+    TiffPage first;
     for (const std::string& name : listing.slices) {
         if (!options.follow_links) require_inside(path, name);
-        const TiffFile file(name, options.skip_rest);
-        if (first_page.empty()) describe_first(file, info);
-        first_page.push_back(info.extent.size[2]);
-        add_file(file, listing.slices[0], info);
+        TiffFile file(name, options.skip_rest);
+        volume.files.push_back(name);
+        if (volume.slices.empty()) {
+            describe_first(file, info);
+            first = file.pages()[0];
+        }
+        add_file(file, first, volume, info);
     }
-    (void)sample_bytes(path, info.extent, info.type);
-    if (info.extent.size[2] == 1) {
-        info.extent.rank = 2;
-        info.notes.push_back("the folder holds a single slice: read as a 2D image");
-    }
-    info.slab_readable = true;
+    const TiffPlanes planes{.slices = std::ssize(volume.slices)};
+    volume.pixel = choose_planes(path, options, planes, first, info).channel.pixel;
+    if (planes.slices == 1) info.notes.emplace_back("the folder holds a single slice: read as a 2D image");
     if (listing.others > 0) info.notes.push_back(std::to_string(listing.others) + " other entries of the folder were ignored");
-    return std::make_unique<FolderReader>(std::move(info), listing.slices, std::move(first_page), options.skip_rest);
+    auto file = std::make_unique<TiffFile>(listing.slices[0], options.skip_rest);
+    return make_tiff_reader(std::move(info), std::move(volume), std::move(file), first, options);
 }
 
 }  // namespace isoatlas

@@ -1,9 +1,10 @@
-// Multi-page TIFF: pages are slices along z; one page is an image of rank 2.
+// Multi-page TIFF, with the hyperstacks of ImageJ: pages are slices along z; one page is an image of rank 2.
+#include <algorithm>
 #include <cmath>
 
-#include "base/check.h"
 #include "formats/volume/formats.h"
-#include "formats/volume/sample_reader.h"
+#include "formats/volume/imagej_labels.h"
+#include "formats/volume/ome_xml.h"
 #include "formats/volume/tiff_stack.h"
 
 namespace isoatlas {
@@ -12,73 +13,43 @@ namespace {
 
 constexpr double kMillimetresPerInch = 25.4;
 
-/// Which pages of a file are the slices: first, first + stride, ...
-struct PageChoice {
-    std::int64_t first = 0, stride = 1, count = 1;
-    bool is_image = false;  ///< one page of a series: rank 2
-};
-
-class TiffReader final : public VolumeReader {
-public:
-    TiffReader(VolumeInfo info, TiffFile file, const PageChoice& choice, std::int64_t contiguous)
-        : file_(std::move(file)), choice_(choice), contiguous_(contiguous), page_bytes_(file_.pages()[0].bytes()) {
-        info_ = std::move(info);
-        tidy_texts(info_);
-    }
-
-    void read(std::int64_t z_begin, std::int64_t z_end, std::span<std::byte> out) override {
-        ISOATLAS_CHECK(0 <= z_begin && z_begin <= z_end && z_end <= choice_.count);
-        ISOATLAS_CHECK(static_cast<std::int64_t>(out.size()) == (z_end - z_begin) * page_bytes_);
-        for (std::int64_t z = z_begin; z < z_end; ++z) {
-            const auto begin = static_cast<std::size_t>((z - z_begin) * page_bytes_);
-            read_page(choice_.first + z * choice_.stride, out.subspan(begin, static_cast<std::size_t>(page_bytes_)));
-        }
-    }
-
-private:
-    void read_page(std::int64_t page, std::span<std::byte> out) {
-        if (contiguous_ < 0) return file_.read(page, out);
-        file_.read_raw(contiguous_ + page * page_bytes_, out);
-        if (needs_swap(info_.big_endian)) swap_bytes(out, size_of(info_.type));
-    }
-
-    TiffFile file_;
-    PageChoice choice_;
-    std::int64_t contiguous_;  ///< offset of page 0 when the pages are contiguous after a single directory, else -1
-    std::int64_t page_bytes_;
-};
-
 /// ImageJ writes stacks above 4 GB as one directory followed by all pages. Their number, or 0 for an ordinary file.
-std::int64_t pages_behind(TiffFile& file, const TiffDescription& description) {
-    if (description.kind != TiffDescription::Kind::imagej || description.images < 2 || file.pages().size() != 1) return 0;
-    const std::int64_t offset = file.contiguous_offset();
-    if (offset < 0 || description.images > (file.bytes() - offset) / file.pages()[0].bytes()) return 0;
+std::int64_t pages_behind(TiffFile& file, const TiffDescription& description, const TiffPage& page) {
+    if (!description.is_imagej || description.images < 2 || file.chain().size() != 1) return 0;
+    const std::int64_t offset = file.contiguous_offset(page), bytes = page.bytes() * page.pixel.samples;
+    if (offset < 0 || description.images > (file.bytes() - offset) / bytes) return 0;
     return description.images;
 }
 
-PageChoice choose_pages(const std::string& path, const TiffDescription& description, std::int64_t pages, const OpenOptions& options,
-                        std::vector<std::string>& notes) {
-    if (description.channels > 1) {
-        throw Error(ErrorKind::unsupported, {.file = path,
-                                             .what = "holds " + std::to_string(description.channels) + " channels",
-                                             .expected = "one value per voxel",
-                                             .next = "save one channel as a file, e.g. in Fiji: Image > Color > Split Channels"});
+/// The planes that the description says, or all pages as slices.
+TiffPlanes planes_of(const TiffDescription& description, const TiffTags& tags, std::int64_t pages, std::vector<std::string>& notes) {
+    const std::int64_t channels = description.channels, slices = description.slices, frames = description.frames;
+    TiffPlanes planes{.slices = pages};
+    if (channels == 1 && frames == 1) return planes;
+    const bool is_possible =
+        channels <= pages && frames <= pages / channels && slices == pages / channels / frames && pages == channels * frames * slices;
+    if (!is_possible) {
+        notes.push_back("the description has " + std::to_string(channels) + " channels, " + std::to_string(slices) + " slices and " +
+                        std::to_string(frames) + " time steps, the file has " + std::to_string(pages) +
+                        " pages: all pages are read as slices");
+        return planes;
     }
-    const std::int64_t slices = description.slices, frames = description.frames;
-    const bool is_series = frames > 1 && frames <= pages && slices == pages / frames && pages % frames == 0;
-    if (frames > 1 && !is_series) {
-        notes.push_back("the description has " + std::to_string(slices) + " slices and " + std::to_string(frames) +
-                        " time steps, the file has " + std::to_string(pages) + " pages: all pages are read as slices");
+    planes = {.slices = slices, .times = frames, .channels = channel_names_of(tags.labels, channels)};
+    planes.time_increment = description.frame_interval;
+    planes.time_unit = description.time_unit.empty() || description.time_unit == "sec" ? "s" : description.time_unit;
+    return planes;
+}
+
+/// Also of the pages that are not read.
+void require_one_shape(const std::string& path, const std::vector<TiffPage>& pages) {
+    for (const TiffPage& page : pages) {
+        if (page.same_shape(pages[0])) continue;
+        throw Error(ErrorKind::input, {.file = path,
+                                       .where = "page " + std::to_string(page.number),
+                                       .what = "the page is " + page.shape(),
+                                       .expected = pages[0].shape() + " like page " + std::to_string(pages[0].number),
+                                       .next = "split the file: all pages of a volume must have one size and type"});
     }
-    if (is_series && slices == 1 && !options.time_step) {
-        notes.push_back("the " + std::to_string(frames) +
-                        " time steps of one slice are read as the third axis (a time step chooses one of them)");
-        return {.count = pages};
-    }
-    const TimeStep step = choose_time_step(path, options, is_series ? frames : 1);
-    if (!is_series) return {.count = pages};
-    if (description.frames_are_fastest) return {.first = step.index, .stride = frames, .count = slices, .is_image = slices == 1};
-    return {.first = step.index * slices, .stride = 1, .count = slices, .is_image = slices == 1};
 }
 
 double usable_resolution(double resolution) { return std::isfinite(resolution) && resolution > 0 ? resolution : 0; }
@@ -92,7 +63,7 @@ Geometry tiff_geometry(const TiffTags& tags, const TiffDescription& description,
     geometry.unit = description.unit;
     if (spacing[0] <= 0 && x > 0 && y > 0) {
         const bool has_unit = tags.resolution_unit == 2 || tags.resolution_unit == 3;
-        if (description.kind == TiffDescription::Kind::imagej) {
+        if (description.is_imagej) {
             spacing = {1 / x, 1 / y, spacing[2]};
         } else if (has_unit) {
             const double length = tags.resolution_unit == 2 ? kMillimetresPerInch : 10.0;
@@ -125,35 +96,43 @@ bool looks_like_tiff(FirstBytes first, const std::string&) {
 }
 
 std::unique_ptr<VolumeReader> open_tiff(const std::string& path, const OpenOptions& options) {
-    TiffFile file(path, options.skip_rest);
-    const TiffPage page = file.pages()[0];
-    const TiffDescription description = parse_tiff_description(file.tags().description);
-    const std::int64_t behind = pages_behind(file, description);
+    auto file = std::make_unique<TiffFile>(path, options.skip_rest);
+    const TiffTags tags = file->tags();
     VolumeInfo info;
     info.path = path;
-    info.format = file.is_big_tiff() ? "BigTIFF" : "TIFF";
-    info.encoding = file.encoding();
-    info.type = page.type;
-    info.big_endian = file.big_endian();
-    const std::int64_t pages = behind > 0 ? behind : static_cast<std::int64_t>(file.pages().size());
-    const PageChoice choice = choose_pages(path, description, pages, options, info.notes);
-    info.extent = {.rank = pages == 1 || choice.is_image ? 2 : 3, .size = {page.width, page.height, choice.count}};
-    (void)sample_bytes(path, info.extent, info.type);
-    info.geometry = tiff_geometry(file.tags(), description, choice.count, info.notes);
+    info.format = file->is_big_tiff() ? "BigTIFF" : "TIFF";
+    info.description = tags.description;
+    info.file_bytes = file->bytes();
+    add_tiff_notes(*file, info.notes);
+    if (looks_like_ome(tags.description)) return open_ome_tiff(std::move(info), std::move(file), options);
+    const std::vector<TiffPage> pages = file->pages();
+    const TiffDescription description = parse_tiff_description(tags.description);
+    const std::int64_t behind = pages_behind(*file, description, pages[0]);
+    const std::int64_t count = behind > 0 ? behind : std::ssize(pages);
+    const TiffPlanes planes = planes_of(description, tags, count, info.notes);
+    const TiffChoice choice = choose_planes(path, options, planes, pages[0], info);
     info.calibration = description.calibration;
     info.value_unit = description.value_unit;
-    info.description = file.tags().description;
-    info.slab_readable = true;  // every page can be decoded without the pages before it
-    info.file_bytes = file.bytes();
-    add_tiff_notes(file, info.notes);
-    const std::int64_t contiguous = behind > 0 ? file.contiguous_offset() : -1;
-    return std::make_unique<TiffReader>(std::move(info), std::move(file), choice, contiguous);
+    TiffVolume volume{.files = {path}, .slices = {}, .pixel = choice.channel.pixel, .skip_rest = options.skip_rest};
+    const std::int64_t contiguous = behind > 0 ? file->contiguous_offset(pages[0]) : -1, channels = std::ssize(planes.channels);
+    for (std::int64_t i = 0; i < info.extent.size[2]; ++i) {
+        const std::int64_t time = choice.is_along_time ? i : choice.time, slice = choice.is_along_time ? 0 : i;
+        const std::int64_t number = choice.channel.plane + channels * (slice + planes.slices * time);
+        const TiffPage& page = pages[static_cast<std::size_t>(behind > 0 ? 0 : number)];
+        volume.slices.push_back({.directory = page.directory, .number = page.number});
+        if (behind > 0) volume.slices.back().raw = contiguous + number * page.bytes() * page.pixel.samples;
+    }
+    const TiffPage first = pages[static_cast<std::size_t>(behind > 0 ? 0 : choice.channel.plane + channels * planes.slices * choice.time)];
+    if (behind == 0) require_one_shape(path, pages);
+    info.geometry = tiff_geometry(tags, description, info.extent.size[2], info.notes);
+    return make_tiff_reader(std::move(info), std::move(volume), std::move(file), first, options);
 }
 
-void add_tiff_notes(const TiffFile& file, std::vector<std::string>& notes) {
+void add_tiff_notes(TiffFile& file, std::vector<std::string>& notes) {
     if (file.tags().photometric == 0) notes.push_back("the file shows 0 as white; the stored values are used");
     if (file.tags().photometric == 3) notes.push_back("the file has a colour table; the stored values are used");
-    if (file.previews() > 0) notes.push_back(std::to_string(file.previews()) + " reduced pages (previews, masks) were ignored");
+    const auto previews = std::ranges::count_if(file.chain(), [](const TiffPage& page) { return page.is_preview && page.number > 0; });
+    if (previews > 0) notes.push_back(std::to_string(previews) + " reduced pages (previews, masks) were ignored");
 }
 
 }  // namespace isoatlas

@@ -1,7 +1,7 @@
 #include "formats/volume/tiff_description.h"
 
+#include <algorithm>
 #include <cmath>
-#include <pugixml.hpp>
 
 #include "formats/common/text.h"
 
@@ -45,6 +45,8 @@ void take_imagej_line(std::string_view key, std::string_view value, TiffDescript
     if (key == "frames") description.frames = count_or(value, 1);
     if (key == "spacing") description.spacing[2] = positive_or_zero(value);
     if (key == "unit") description.unit = unit_name(value);
+    if (key == "finterval") description.frame_interval = positive_or_zero(value);
+    if (key == "tunit") description.time_unit = std::string(trim(value));
     if (key == "vunit") description.value_unit = std::string(trim(value));
     if (key == "cf") straight_line = trim(value) == "0";
     if (key == "c0") description.calibration.intercept = parse_number(trim(value)).value_or(0);
@@ -54,7 +56,7 @@ void take_imagej_line(std::string_view key, std::string_view value, TiffDescript
 /// Lines "key=value"; reported value = c0 + c1 * stored when the calibration function cf is 0 (straight line).
 TiffDescription parse_imagej(std::string_view text) {
     TiffDescription description;
-    description.kind = TiffDescription::Kind::imagej;
+    description.is_imagej = true;
     bool straight_line = false;
     while (!text.empty()) {
         const std::string_view line = text.substr(0, text.find('\n'));
@@ -70,44 +72,10 @@ TiffDescription parse_imagej(std::string_view text) {
     return description;
 }
 
-/// The first Pixels element of an OME-XML text (namespace prefixes allowed).
-pugi::xml_node find_pixels(const pugi::xml_node& root) {
-    for (const pugi::xml_node image : root.children()) {
-        for (const pugi::xml_node pixels : image.children()) {
-            const std::string_view name = pixels.name();
-            if (name == "Pixels" || name.ends_with(":Pixels")) return pixels;
-        }
-    }
-    return {};
-}
-
-TiffDescription parse_ome(std::string_view text) {
-    pugi::xml_document document;
-    if (!document.load_buffer(text.data(), text.size(), pugi::parse_minimal | pugi::parse_escapes)) return {};
-    const pugi::xml_node pixels = find_pixels(document.document_element());
-    if (!pixels) return {};
-    TiffDescription description;
-    description.kind = TiffDescription::Kind::ome;
-    description.channels = count_or(pixels.attribute("SizeC").value(), 1);
-    description.slices = count_or(pixels.attribute("SizeZ").value(), 1);
-    description.frames = count_or(pixels.attribute("SizeT").value(), 1);
-    const std::string_view order = pixels.attribute("DimensionOrder").value();
-    description.frames_are_fastest = order.find('T') < order.find('Z');
-    static constexpr const char* kSize[] = {"PhysicalSizeX", "PhysicalSizeY", "PhysicalSizeZ"};
-    for (int axis = 0; axis < 3; ++axis) description.spacing[axis] = positive_or_zero(pixels.attribute(kSize[axis]).value());
-    if (description.spacing[0] > 0) {
-        const pugi::xml_attribute unit = pixels.attribute("PhysicalSizeXUnit");
-        description.unit = unit ? unit_name(unit.value()) : "um";  // the default of the OME schema
-    }
-    return description;
-}
-
 }  // namespace
 
 TiffDescription parse_tiff_description(std::string_view text) {
     if (text.starts_with("ImageJ=")) return parse_imagej(text);
-    const std::string_view start = trim(text.substr(0, 4096));
-    if (start.starts_with("<") && start.find("OME") != std::string_view::npos) return parse_ome(text);
     return {};
 }
 

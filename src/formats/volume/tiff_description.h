@@ -1,4 +1,4 @@
-// Parses the ImageDescription tag of a TIFF file by ImageJ or OME: how the pages form a volume, and the voxel size.
+// Parses the ImageDescription tag of a TIFF file by ImageJ: how the pages form a volume, and the voxel size.
 #pragma once
 
 #include <cstdint>
@@ -10,17 +10,18 @@
 namespace isoatlas {
 
 struct TiffDescription {
-    enum class Kind : std::uint8_t { none, imagej, ome } kind = Kind::none;
-    std::int64_t images = 0;  ///< pages in all; 0: missing
-    std::int64_t channels = 1, slices = 1, frames = 1;
-    bool frames_are_fastest = false;  ///< page = frame + frames * slice, else slice + slices * frame
-    Vec3 spacing{0, 0, 0};            ///< 0: missing
-    std::string unit;                 ///< "um", "mm", ...; empty: missing, or pixels
-    Calibration calibration;
-    std::string value_unit;
+    bool is_imagej = false;
+    std::int64_t images = 0;                            ///< pages in all; 0: missing
+    std::int64_t channels = 1, slices = 1, frames = 1;  ///< page = channel + channels * (slice + slices * frame)
+    Vec3 spacing{0, 0, 0};                              ///< 0: missing
+    std::string unit{};                                 ///< "um", "mm", ...; empty: missing, or pixels
+    double frame_interval = 0;                          ///< 0: missing
+    std::string time_unit{};
+    Calibration calibration{};
+    std::string value_unit{};
 };
 
-/// Anything else than ImageJ or OME gives kind none. Never throws; invalid values count as missing.
+/// Anything else than ImageJ gives an empty one. Never throws; invalid values count as missing.
 [[nodiscard]] TiffDescription parse_tiff_description(std::string_view text);
 
 }  // namespace isoatlas

@@ -42,7 +42,8 @@ std::optional<std::vector<TiffEntry>> read_tiff_entries(File& file, const std::s
     return entries;
 }
 
-std::string doubtful_tag(const std::vector<TiffEntry>& entries) {
+std::string doubtful_tag(const std::vector<TiffEntry>& entries, int samples) {
+    constexpr std::uint16_t kSampleFormat = 339;
     // Tags of TIFF 6.0 that may be one SHORT, without those of bilevel images: these may differ from another one in one bit.
     static constexpr std::array<std::uint16_t, 18> kSound = {255, 256, 257, 258, 259, 262, 266, 273, 274,
                                                              277, 278, 279, 280, 281, 284, 322, 323, 338};
@@ -58,7 +59,8 @@ std::string doubtful_tag(const std::vector<TiffEntry>& entries) {
         const auto wanted = tag;
         const auto found = std::find_if(entries.begin(), entries.end(), [wanted](const TiffEntry& e) { return e.tag == wanted; });
         if (found != entries.end()) {
-            if (found->type != kShort || found->count != 1) return std::string(name) + " is not one number of 16 bits";
+            const bool is_one = found->count == 1 || (tag == kSampleFormat && found->count == static_cast<std::uint64_t>(samples));
+            if (found->type != kShort || !is_one) return std::string(name) + " is not one number of 16 bits";
             continue;
         }
         for (const TiffEntry& e : entries) {

@@ -21,9 +21,9 @@ struct TiffEntry {
                                                                       bool is_big_tiff, bool big_endian);
 
 /// Describes the error in a directory: invalid types, or one of the tags that decide samples and have a default (Compression,
-/// FillOrder, Predictor, SampleFormat) with another type, or missing where a tag of its form stands that differs in one bit. Empty: no
-/// error.
-[[nodiscard]] std::string doubtful_tag(const std::vector<TiffEntry>& entries);
+/// FillOrder, Predictor, SampleFormat) with another type, or missing where a tag of its form stands that differs in one bit. samples: of a
+/// pixel, each of which may have a SampleFormat. Empty: no error.
+[[nodiscard]] std::string doubtful_tag(const std::vector<TiffEntry>& entries, int samples);
 
 /// Number of offsets of strips or tiles in the directory; 0: none.
 [[nodiscard]] std::uint64_t pieces_listed(const std::vector<TiffEntry>& entries);
