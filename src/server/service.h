@@ -26,8 +26,8 @@
 // polarity=low: any of them of the objects of low values, where the store is open for both polarities; references to several objects may
 // say it one by one: low2. The entries of /api/atlas are of both.
 // tau: in units of the file, as `isoatlas extract --tau`. Everything but the page needs the token; authorisation: server/access_control.h,
-// which answers /open and /enter; server/http.cpp answers /frame, /api/address and /api/volumes, and hands /volume/N/... to the service of the
-// volume (server/volume_services.h).
+// which answers /open and /enter; server/http.cpp answers /frame, /api/address and /api/volumes, and hands /volume/N/... to the service of
+// the volume (server/volume_services.h).
 #pragma once
 
 #include <atomic>
