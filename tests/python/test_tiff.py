@@ -233,7 +233,11 @@ def test_damaged_files(tmp_path):
             assert refused(tmp_path / "cut.ome.tif")
             continue
         assert np.array_equal(atlas.volume, array)  # what is cut off belongs to the pyramid
-        assert any("reduced images" in note for note in atlas.info["notes"])
+        try:
+            reduced = isoatlas.open(tmp_path / "cut.ome.tif", level=1).volume
+        except isoatlas.Error:
+            continue
+        assert np.array_equal(reduced, array[:, ::2, ::2])
     with tifffile.TiffFile(tmp_path / "v.ome.tif") as file:
         first = file.pages[0].offset
     cyclic = bytearray(content)
