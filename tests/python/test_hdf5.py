@@ -59,11 +59,17 @@ def test_booleans_and_one_more_dimension(tmp_path):
     assert np.array_equal(read(tmp_path / "v.h5").volume, array[0, ..., 0])
 
 
-def test_a_filter_that_is_missing_is_named(tmp_path, run_cli):
-    with h5py.File(tmp_path / "v.h5", "w") as file:
-        file.create_dataset("v", data=np.arange(64, dtype="u1").reshape(4, 4, 4), chunks=(4, 4, 4), compression="lzf")
-    done = run_cli("info", tmp_path / "v.h5")
-    assert done.returncode == 4 and "32000" in done.stderr and len(done.stderr.splitlines()) < 6
+@pytest.mark.parametrize("libver", ["earliest", "latest"])
+@pytest.mark.parametrize("shape, chunks, most", [((7, 9, 8), None, None), ((7, 9, 8), (3, 5, 2), None), ((7, 9, 8), (7, 9, 8), None),
+                                                 ((7, 9, 8), (3, 5, 2), (None, 9, 8)), ((7, 9, 8), (3, 5, 2), (None, None, 8))])
+def test_every_index_and_any_box(shape, chunks, most, libver, tmp_path):
+    """Single chunk, implicit, fixed array, extensible array and B-trees of both versions."""
+    array = np.random.default_rng(6).integers(0, 4, shape).astype(">i2")
+    for filters in ({},) if chunks is None else ({}, {"compression": "lzf"}, {"compression": "gzip", "shuffle": True, "fletcher32": True}):
+        with h5py.File(tmp_path / "v.h5", "w", libver=libver) as file:
+            file.create_dataset("v", data=array, chunks=chunks, maxshape=most, **filters)
+        assert same(array, read(tmp_path / "v.h5").volume)
+        assert same(array[2:7, 1:8, 3:6], read(tmp_path / "v.h5", box=((2, 7), (1, 8), (3, 6))).volume)
 
 
 @pytest.fixture
@@ -136,7 +142,7 @@ def test_petabytes_that_are_not_there(shape, chunks, tmp_path, run_cli):
 
 
 def test_damage_has_one_message(tmp_path, run_cli):
-    """Nothing but one message comes. HDF5 1.10.8 itself reads beyond a chunk in about one of 700 such files."""
+    """Nothing but one message comes."""
     rng = np.random.default_rng(5)
     with h5py.File(tmp_path / "v.h5", "w") as file:
         file.create_dataset("g/v", data=rng.integers(0, 255, (8, 9, 10)).astype("u1"), chunks=(4, 5, 6), compression="gzip", fletcher32=True)
@@ -155,7 +161,7 @@ def test_damage_has_one_message(tmp_path, run_cli):
         if done.returncode not in (0, 2, 3, 4, 5):
             crashes.append((i, done.returncode, done.stderr[-200:]))
         assert "HDF5-DIAG" not in done.stderr
-    assert len(crashes) <= 1, crashes
+    assert not crashes, crashes
 
 
 def test_shared_files_say_what_they_are():

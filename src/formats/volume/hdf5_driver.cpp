@@ -79,8 +79,16 @@ struct ReadingDriver {
         return 0;
     }
     static haddr_t get_eof(const H5FD_t* file, H5FD_mem_t) { return static_cast<haddr_t>(of(file).file->size()); }
-    static herr_t read(H5FD_t* file, H5FD_mem_t, hid_t, haddr_t offset, std::size_t size, void* out) {
+    static herr_t get_handle(H5FD_t* file, hid_t, void** handle) {
+        *handle = of(file).file.get();
+        return 0;
+    }
+    static herr_t read(H5FD_t* file, H5FD_mem_t kind, hid_t, haddr_t offset, std::size_t size, void* out) {
         const OpenHdf5File& opened = of(file);
+        if (opened.access->noted != nullptr && kind == H5FD_MEM_DRAW) {
+            *opened.access->noted = {opened.file.get(), offset, size};
+            return 0;
+        }
         try {
             if (offset <= static_cast<haddr_t>(opened.file->size())) {
                 read_fully(*opened.file, opened.name, static_cast<std::int64_t>(offset), {static_cast<std::byte*>(out), size});
@@ -111,6 +119,7 @@ struct ReadingDriver {
             f.get_eoa = get_eoa;
             f.set_eoa = set_eoa;
             f.get_eof = get_eof;
+            f.get_handle = get_handle;
             f.read = read;
             f.write = write;
             constexpr H5FD_mem_t kMap[] = H5FD_FLMAP_DICHOTOMY;
@@ -129,6 +138,11 @@ Hdf5Handle hdf5_access_properties(Hdf5Access& access) {
     Hdf5Access* const argument = &access;
     H5Pset_driver(properties, ReadingDriver::id(), static_cast<const void*>(&argument));
     return properties;
+}
+
+File* file_of_hdf5(hid_t file) {
+    void* handle = nullptr;
+    return H5Fget_vfd_handle(file, H5P_DEFAULT, &handle) < 0 ? nullptr : static_cast<File*>(handle);
 }
 
 }  // namespace isoatlas

@@ -2,12 +2,15 @@
 
 #include <algorithm>
 #include <array>
+#include <cstring>
 #include <limits>
 #include <new>
 #include <span>
 
 #include "formats/common/text.h"
+#include "formats/volume/hdf5_heap.h"
 #include "formats/volume/hdf5_object.h"
+#include "formats/volume/hdf5_storage.h"
 #include "isoatlas/text.h"
 
 namespace isoatlas {
@@ -56,14 +59,12 @@ OpenAttribute open_attribute(const Hdf5File::Data& data, const std::string& obje
 }
 
 std::vector<std::string> texts_of_any_length(const OpenAttribute& open) {
-    const Hdf5Handle type(H5Tcopy(H5T_C_S1), H5Tclose);
-    H5Tset_size(type, H5T_VARIABLE);
-    H5Tset_cset(type, H5Tget_cset(open.type));
-    std::vector<char*> read(static_cast<std::size_t>(open.count), nullptr);
     std::vector<std::string> texts;
-    if (H5Aread(open.attribute, type, static_cast<void*>(read.data())) < 0) return texts;
-    for (const char* text : read) texts.emplace_back(text == nullptr ? "" : text);
-    H5Dvlen_reclaim(type, open.space, H5P_DEFAULT, static_cast<void*>(read.data()));
+    for (const std::vector<std::byte>& bytes : read_hdf5_lists(open.attribute, 1)) {
+        std::string text;
+        for (const std::byte byte : bytes) text += static_cast<char>(byte);
+        texts.push_back(text.substr(0, text.find('\0')));
+    }
     return texts;
 }
 
@@ -80,6 +81,39 @@ std::vector<std::string> texts_of_one_length(const OpenAttribute& open) {
         texts.emplace_back(text);
     }
     return texts;
+}
+
+/// Locks again at the end: what was opened is closed under the lock.
+class Relock {
+public:
+    explicit Relock(std::unique_lock<std::mutex>& lock) : lock_(lock) {}
+    Relock(const Relock&) = delete;
+    Relock& operator=(const Relock&) = delete;
+    ~Relock() { lock_.lock(); }
+
+private:
+    std::unique_lock<std::mutex>& lock_;
+};
+
+/// All numbers of an array of at most two dimensions.
+void read_line(Hdf5Storage& storage, std::span<double> values) {
+    const std::size_t rank = storage.dims().size();
+    if (values.empty()) return;
+    if (rank == 0) return storage.read({}, {}, std::as_writable_bytes(values));
+    const bool is_line = rank == 1;
+    const std::int64_t rows = is_line ? 1 : storage.dims()[0], columns = storage.dims()[rank - 1];
+    const std::int64_t high = is_line ? 1 : storage.chunk()[0], wide = storage.chunk()[rank - 1];
+    std::vector<double> part;
+    for (std::int64_t y = 0; y < rows; y += high) {
+        for (std::int64_t x = 0; x < columns; x += wide) {
+            const std::int64_t height = std::min(high, rows - y), width = std::min(wide, columns - x);
+            part.resize(static_cast<std::size_t>(height * width));
+            const std::array<std::int64_t, 2> first{y, x}, count{height, width};
+            storage.read(std::span(first).last(rank), std::span(count).last(rank), std::as_writable_bytes(std::span(part)));
+            for (std::int64_t row = 0; row < height; ++row)
+                std::copy_n(part.begin() + row * width, width, values.begin() + (y + row) * columns + x);
+        }
+    }
 }
 
 }  // namespace
@@ -191,7 +225,7 @@ Hdf5Array Hdf5File::array(const std::string& path) const {
 }
 
 std::vector<double> Hdf5File::line(const std::string& path) const {
-    const std::lock_guard lock(hdf5_mutex());
+    std::unique_lock lock(hdf5_mutex());
     const Hdf5Handle set = data_->open_array(path);
     const Hdf5Handle type(H5Dget_type(set), H5Tclose), space(H5Dget_space(set), H5Sclose);
     const hssize_t count = H5Sget_simple_extent_npoints(space);
@@ -206,7 +240,12 @@ std::vector<double> Hdf5File::line(const std::string& path) const {
     }
     data_->check_storage(set, path);
     std::vector<double> values(static_cast<std::size_t>(count));
-    if (count > 0 && H5Dread(set, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()) < 0)
+    Hdf5Storage storage({std::shared_ptr<void>(), this}, path, set, H5T_NATIVE_DOUBLE);
+    if (storage.is_own()) {
+        lock.unlock();
+        const Relock relock(lock);
+        read_line(storage, values);
+    } else if (count > 0 && H5Dread(set, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()) < 0)
         data_->fail(path, "the numbers cannot be read");
     return values;
 }
@@ -218,21 +257,18 @@ std::vector<std::vector<std::string>> Hdf5File::references(const std::string& ob
     if (open.count == 0 || H5Tget_class(open.type) != H5T_VLEN) return lists;
     const Hdf5Handle element(H5Tget_super(open.type), H5Tclose);
     if (H5Tequal(element, H5T_STD_REF_OBJ) <= 0) return lists;
-    const Hdf5Handle type(H5Tvlen_create(H5T_STD_REF_OBJ), H5Tclose);
-    std::vector<hvl_t> read(static_cast<std::size_t>(open.count));
-    if (H5Aread(open.attribute, type, static_cast<void*>(read.data())) < 0) return lists;
-    for (const hvl_t& list : read) {
+    for (const std::vector<std::byte>& list : read_hdf5_lists(open.attribute, sizeof(hobj_ref_t))) {
         std::vector<std::string> identities;
-        for (std::size_t i = 0; i < std::min<std::size_t>(list.len, 64); ++i) {
-            const Hdf5Handle target(H5Rdereference2(open.attribute, H5P_DEFAULT, H5R_OBJECT, static_cast<hobj_ref_t*>(list.p) + i),
-                                    H5Oclose);
+        for (std::size_t i = 0; i < std::min<std::size_t>(list.size() / sizeof(hobj_ref_t), 64); ++i) {
+            hobj_ref_t reference{};
+            std::memcpy(&reference, list.data() + i * sizeof reference, sizeof reference);
+            const Hdf5Handle target(H5Rdereference2(open.attribute, H5P_DEFAULT, H5R_OBJECT, &reference), H5Oclose);
             Hdf5Info info{};
             const bool is_there = target >= 0 && H5Oget_info2(target, &info, H5O_INFO_BASIC) >= 0;
             identities.push_back(is_there ? std::to_string(info.fileno) + ":" + std::to_string(info.addr) : "");
         }
         lists.push_back(std::move(identities));
     }
-    H5Dvlen_reclaim(type, open.space, H5P_DEFAULT, static_cast<void*>(read.data()));
     return lists;
 }
 

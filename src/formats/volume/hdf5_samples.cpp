@@ -5,12 +5,11 @@
 #include <utility>
 
 #include "base/check.h"
-#include "formats/common/byte_source.h"
-#include "formats/common/file_access.h"
-#include "formats/common/own_folder.h"
-#include "formats/common/text.h"
+#include "field/copy_box.h"
+#include "formats/volume/chunk_reader.h"
 #include "formats/volume/half_source.h"
 #include "formats/volume/hdf5_object.h"
+#include "formats/volume/hdf5_storage.h"
 #include "formats/volume/sample_reader.h"
 #include "isoatlas/text.h"
 
@@ -32,99 +31,6 @@ hid_t memory_type_of(ValueType type) {
         case ValueType::f64: break;
     }
     return H5T_NATIVE_DOUBLE;
-}
-
-std::string filter_name(H5Z_filter_t id, std::string name) {
-    constexpr std::array<std::pair<int, const char*>, 12> kKnown{{{307, "bzip2"},
-                                                                  {32000, "LZF"},
-                                                                  {32001, "Blosc"},
-                                                                  {32004, "LZ4"},
-                                                                  {32008, "bitshuffle"},
-                                                                  {32013, "ZFP"},
-                                                                  {32015, "Zstandard"},
-                                                                  {32017, "SZ"},
-                                                                  {32019, "JPEG"},
-                                                                  {32023, "Granular BitRound"},
-                                                                  {32026, "Blosc2"},
-                                                                  {4, "SZIP"}}};
-    for (const auto& [known, text] : kKnown) {
-        if (id == known) name = text;
-    }
-    return std::to_string(id) + (name.empty() ? "" : " (" + shown_name(name) + ")");
-}
-
-void check_filters(const std::string& file, const std::string& path, hid_t creation) {
-    for (const auto& [id, name] : hdf5_filters(creation)) {
-        if (id >= 0 && H5Zfilter_avail(id) > 0) continue;
-        throw Error(
-            ErrorKind::unsupported,
-            {.file = file,
-             .where = shown_name(path),
-             .what = "the samples are compressed by the HDF5 filter " + filter_name(id, name) + ", which is not installed here",
-             .expected = "gzip, szip, shuffle or another filter of HDF5 itself",
-             .next =
-                 "install its plugin and name the folder in HDF5_PLUGIN_PATH, or write the array with gzip, for example with h5repack"});
-    }
-}
-
-/// Deflate makes at most 1032 bytes of one; other filters have no bound.
-void check_chunk(Hdf5File::Data& data, const std::string& path, hid_t creation, double chunk_bytes, double file_bytes) {
-    constexpr double kMostOfDeflate = 1032;
-    const int count = H5Pget_nfilters(creation);
-    double ratio = 1;
-    for (int i = 0; i < count; ++i) {
-        unsigned flags = 0;
-        std::size_t values = 0;
-        const H5Z_filter_t id = H5Pget_filter2(creation, static_cast<unsigned>(i), &flags, &values, nullptr, 0, nullptr, nullptr);
-        if (id == H5Z_FILTER_DEFLATE)
-            ratio *= kMostOfDeflate;
-        else if (id != H5Z_FILTER_SHUFFLE && id != H5Z_FILTER_FLETCHER32)
-            return;
-    }
-    if (chunk_bytes > ratio * file_bytes) data.fail(path, "a chunk of the array is larger than the file can hold");
-}
-
-[[noreturn]] void samples_missing(const std::string& file, const std::string& path, std::uint64_t wanted, std::uint64_t size) {
-    throw Error(ErrorKind::input, {.file = file,
-                                   .where = shown_name(path),
-                                   .what = "the file has " + std::to_string(size) + " bytes",
-                                   .expected = std::to_string(wanted) + ", up to the last sample",
-                                   .next = "the file is truncated: get it again"});
-}
-
-/// Files beside the file in which the samples of an array lie.
-void check_file(const Hdf5Access& access, const std::string& header, const std::string& name, std::uint64_t least) {
-    const std::string file = beside(header, name);
-    if (!access.follow_links) require_own_folder(access.path, file);
-    const auto size = static_cast<std::uint64_t>(file_size(file));  // throws when it is not there: HDF5 would fill the samples in
-    if (size < least) samples_missing(file, name, least, size);
-}
-
-void check_external(const Hdf5Access& access, const std::string& header, hid_t creation) {
-    const int files = H5Pget_external_count(creation);
-    for (int i = 0; i < files; ++i) {
-        std::array<char, 4096> name{};
-        off_t offset = 0;
-        hsize_t size = 0;
-        if (H5Pget_external(creation, static_cast<unsigned>(i), name.size() - 1, name.data(), &offset, &size) < 0) continue;
-        const bool is_bounded = size != H5F_UNLIMITED && size < (std::uint64_t{1} << 62) && offset >= 0;
-        check_file(access, header, name.data(), is_bounded ? static_cast<std::uint64_t>(offset) + size : 0);
-    }
-}
-
-void check_virtual(const Hdf5Access& access, const std::string& header, hid_t creation) {
-    constexpr std::size_t kMostSources = 65536;
-    std::size_t count = 0;
-    H5Pget_virtual_count(creation, &count);
-    std::string last;
-    for (std::size_t i = 0; i < std::min(count, kMostSources); ++i) {
-        std::array<char, 4096> name{};
-        if (H5Pget_virtual_filename(creation, i, name.data(), name.size() - 1) <= 0) continue;
-        const std::string source = name.data();
-        if (source == "." || source == last || source.find('%') != std::string::npos) continue;  // %b stands for a number
-        check_file(access, header, source, 0);
-        last = source;
-    }
 }
 
 /// A part of a volume whose chunks are few.
@@ -174,13 +80,13 @@ public:
         try {
             open(array);
         } catch (...) {  // closed under the lock
-            set_ = {}, type_ = {};
+            storage_.reset(), set_ = {}, type_ = {};
             throw;
         }
     }
     ~Hdf5Reader() override {
         const std::lock_guard lock(hdf5_mutex());
-        set_ = {}, type_ = {};
+        storage_.reset(), set_ = {}, type_ = {};
     }
     Hdf5Reader(const Hdf5Reader&) = delete;
     Hdf5Reader& operator=(const Hdf5Reader&) = delete;
@@ -215,13 +121,88 @@ private:
         H5Pset_efile_prefix(properties, "${ORIGIN}");
         set_ = data.open_array(path_, properties);
         data.check_storage(set_, path_);
-        if (!is_half_) return;
-        type_ = {H5Dget_type(set_), H5Tclose};
-        type_ = {H5Tcopy(type_), H5Tclose};
-        H5Tset_order(type_, H5Tget_order(H5T_NATIVE_UINT16));
+        if (is_half_) {
+            type_ = {H5Dget_type(set_), H5Tclose};
+            type_ = {H5Tcopy(type_), H5Tclose};
+            H5Tset_order(type_, H5Tget_order(H5T_NATIVE_UINT16));
+        }
+        storage_ = std::make_unique<Hdf5Storage>(file_, path_, set_, memory_type());
+        if (storage_->has_chunks()) open_chunks();
+    }
+
+    [[nodiscard]] hid_t memory_type() const { return is_half_ ? static_cast<hid_t>(type_) : memory_type_of(stored_); }
+    [[nodiscard]] std::size_t memory_bytes() const { return is_half_ ? 2 : size_of(stored_); }
+
+    /// Along an axis of the volume, of the whole array or of a chunk.
+    [[nodiscard]] std::int64_t along(const std::vector<std::int64_t>& sizes, std::size_t a) const {
+        return place_.dimension[a] < 0 ? 1 : sizes[static_cast<std::size_t>(place_.dimension[a])];
+    }
+
+    /// Chunks are kept; large ones are cut into pieces, so that a few samples of a declared petabyte take no memory for it.
+    void open_chunks() {
+        constexpr std::int64_t kMostPieceBytes = kChunkCacheBytes;
+        VolumeInfo info;
+        info.path = info_.path;
+        info.type = is_half_ ? ValueType::u16 : stored_;
+        info.extent.rank = 3;
+        auto others = static_cast<std::int64_t>(memory_bytes());
+        for (std::size_t a = 0; a < 3; ++a) {
+            info.extent.size[a] = along(storage_->dims(), a);
+            info.chunk[a] =
+                std::clamp<std::int64_t>(kMostPieceBytes / others, 1, std::min(along(storage_->chunk(), a), info.extent.size[a]));
+            others *= info.chunk[a];
+        }
+        const auto read = [this, size = info.chunk, all = info.extent.size](const Index3& piece, std::span<std::byte> out) {
+            Index3 begin{piece[0] * size[0], piece[1] * size[1], piece[2] * size[2]};
+            read_piece({begin, begin + size}, all, out);
+        };
+        chunks_ = make_chunk_reader(std::move(info), read);
+    }
+
+    /// Samples of a box of the array; where it lies in several chunks only those inside `all`.
+    void read_piece(const SampleBox& box, const Index3& all, std::span<std::byte> out) {
+        const Index3 end = min(box.end, all);
+        Index3 chunk, first, last;
+        for (std::size_t a = 0; a < 3; ++a)
+            chunk[a] = along(storage_->chunk(), a), first[a] = box.begin[a] / chunk[a], last[a] = (end[a] - 1) / chunk[a];
+        if (first == last && min(box.end, {(first[0] + 1) * chunk[0], (first[1] + 1) * chunk[1], (first[2] + 1) * chunk[2]}) == box.end)
+            return read_box_of_array(box, out);
+        for (std::int64_t z = first[2]; z <= last[2]; ++z) {
+            for (std::int64_t y = first[1]; y <= last[1]; ++y) {
+                for (std::int64_t x = first[0]; x <= last[0]; ++x) {
+                    const Index3 corner{x * chunk[0], y * chunk[1], z * chunk[2]};
+                    const SampleBox part{max(corner, box.begin), min(corner + chunk, end)};
+                    part_.resize(static_cast<std::size_t>(part.size().product()) * memory_bytes());
+                    read_box_of_array(part, part_);
+                    copy_box(part.size(), {part_, part.size(), {0, 0, 0}}, {out, box.size(), part.begin - box.begin}, memory_bytes());
+                }
+            }
+        }
+    }
+
+    void read_box_of_array(const SampleBox& box, std::span<std::byte> out) {
+        std::vector<std::int64_t> first = place_.index, count(rank_, 1);
+        for (std::size_t a = 0; a < 3; ++a) {
+            if (place_.dimension[a] < 0) continue;
+            const auto d = static_cast<std::size_t>(place_.dimension[a]);
+            first[d] = box.begin[a], count[d] = box.size()[a];
+        }
+        storage_->read(first, count, out);
     }
 
     void read_stored(const SampleBox& box, std::byte* out) {
+        if (!storage_->is_own()) return read_by_library(box, out);
+        SampleBox of_array = box;
+        for (std::size_t a = 0; a < 3; ++a) {
+            const std::int64_t begin = place_.dimension[a] < 0 ? 0 : place_.index[static_cast<std::size_t>(place_.dimension[a])];
+            of_array.begin[a] += begin, of_array.end[a] += begin;
+        }
+        const std::span<std::byte> bytes(out, static_cast<std::size_t>(box.size().product()) * memory_bytes());
+        chunks_ != nullptr ? chunks_->read_box(of_array, bytes) : read_box_of_array(of_array, bytes);
+    }
+
+    /// Samples in other files, and behind filters that only HDF5 has.
+    void read_by_library(const SampleBox& box, std::byte* out) {
         const std::lock_guard lock(hdf5_mutex());
         const Hdf5Handle space(H5Dget_space(set_), H5Sclose);
         const Index3 size = box.size(), step = info_.chunk.product() > 0 ? step_of(info_.chunk, size) : size;
@@ -251,8 +232,8 @@ private:
         const Hdf5Handle memory(H5Screate_simple(3, whole.data(), nullptr), H5Sclose);
         const bool is_selected = H5Sselect_hyperslab(space, H5S_SELECT_SET, start.data(), nullptr, count.data(), nullptr) >= 0 &&
                                  H5Sselect_hyperslab(memory, H5S_SELECT_SET, first.data(), nullptr, some.data(), nullptr) >= 0;
-        const hid_t type = is_half_ ? static_cast<hid_t>(type_) : memory_type_of(stored_);
-        if (!is_selected || H5Dread(set_, type, memory, space, H5P_DEFAULT, out) < 0) data.fail(path_, "the samples cannot be read");
+        if (!is_selected || H5Dread(set_, memory_type(), memory, space, H5P_DEFAULT, out) < 0)
+            data.fail(path_, "the samples cannot be read");
         // What HDF5 fills in for a file that it could not read is no sample.
         if (data.access.failure) data.fail(path_, "the samples cannot be read");
     }
@@ -274,84 +255,12 @@ private:
     ValueType stored_;  ///< as large as info_.type
     bool is_half_;
     Hdf5Handle set_, type_;
+    std::unique_ptr<Hdf5Storage> storage_;
+    std::unique_ptr<VolumeReader> chunks_;  ///< of the whole array
+    std::vector<std::byte> part_;
 };
 
 }  // namespace
-
-std::vector<Hdf5Filter> hdf5_filters(hid_t creation) {
-    std::vector<Hdf5Filter> filters;
-    const int count = H5Pget_nfilters(creation);
-    for (int i = 0; i < count; ++i) {
-        unsigned flags = 0, config = 0;
-        std::size_t values = 0;
-        std::array<char, 64> name{};
-        const H5Z_filter_t id =
-            H5Pget_filter2(creation, static_cast<unsigned>(i), &flags, &values, nullptr, name.size() - 1, name.data(), &config);
-        filters.push_back({id, name.data()});
-    }
-    return filters;
-}
-
-Hdf5Type hdf5_type_of(hid_t type) {
-    const H5T_class_t kind = H5Tget_class(type);
-    if (kind == H5T_ENUM) {
-        const Hdf5Handle numbers(H5Tget_super(type), H5Tclose);
-        return numbers >= 0 && H5Tget_class(numbers) == H5T_INTEGER ? hdf5_type_of(numbers) : Hdf5Type{.name = "enumeration"};
-    }
-    const std::size_t size = H5Tget_size(type);
-    Hdf5Type found;
-    if (kind == H5T_INTEGER) {
-        const bool is_signed = H5Tget_sign(type) != H5T_SGN_NONE;
-        found = {.name = (is_signed ? "int" : "uint") + std::to_string(8 * size), .is_number = true};
-        if (size == 1) found.value = is_signed ? ValueType::i8 : ValueType::u8;
-        if (size == 2) found.value = is_signed ? ValueType::i16 : ValueType::u16;
-        if (size == 3 || size == 4) found.value = is_signed ? ValueType::i32 : ValueType::u32;
-    } else if (kind == H5T_FLOAT) {
-        found = {.name = "float" + std::to_string(8 * size), .is_number = true};
-        if (size <= 8) found.value = size <= 4 ? ValueType::f32 : ValueType::f64;
-        std::size_t sign = 0, exponent = 0, exponent_bits = 0, fraction = 0, fraction_bits = 0;
-        H5Tget_fields(type, &sign, &exponent, &exponent_bits, &fraction, &fraction_bits);
-        found.is_half = size == 2 && sign == 15 && exponent == 10 && exponent_bits == 5 && fraction == 0 && fraction_bits == 10 &&
-                        H5Tget_ebias(type) == 15;
-    } else {
-        constexpr std::array<std::pair<H5T_class_t, const char*>, 7> kNames{{{H5T_STRING, "text"},
-                                                                             {H5T_COMPOUND, "compound"},
-                                                                             {H5T_REFERENCE, "references"},
-                                                                             {H5T_BITFIELD, "bits"},
-                                                                             {H5T_OPAQUE, "opaque"},
-                                                                             {H5T_VLEN, "lists"},
-                                                                             {H5T_ARRAY, "arrays"}}};
-        for (const auto& [known, name] : kNames) {
-            if (kind == known) found.name = name;
-        }
-        return found;
-    }
-    found.big_endian = size > 1 && H5Tget_order(type) == H5T_ORDER_BE;
-    return found;
-}
-
-void Hdf5File::Data::check_storage(hid_t set, const std::string& path) {
-    const Hdf5Handle creation(H5Dget_create_plist(set), H5Pclose), own(H5Iget_file_id(set), H5Fclose), type(H5Dget_type(set), H5Tclose);
-    hsize_t size = 0;
-    std::array<char, 4096> name{};
-    if (creation < 0 || H5Fget_filesize(own, &size) < 0 || H5Fget_name(own, name.data(), name.size() - 1) < 0)
-        fail(path, "the array cannot be read");
-    check_filters(access.path, path, creation);
-    const H5D_layout_t layout = H5Pget_layout(creation);
-    if (layout == H5D_VIRTUAL) check_virtual(access, name.data(), creation);
-    if (layout == H5D_CHUNKED) {
-        std::array<hsize_t, H5S_MAX_RANK> chunk{};
-        const int rank = H5Pget_chunk(creation, H5S_MAX_RANK, chunk.data());
-        double bytes = static_cast<double>(H5Tget_size(type));
-        for (int d = 0; d < rank; ++d) bytes *= static_cast<double>(chunk[static_cast<std::size_t>(d)]);
-        if (H5Dget_storage_size(set) > 0) check_chunk(*this, path, creation, bytes, static_cast<double>(size));
-    }
-    if (layout != H5D_CONTIGUOUS) return;
-    if (H5Pget_external_count(creation) > 0) return check_external(access, name.data(), creation);
-    const haddr_t begin = H5Dget_offset(set);
-    const hsize_t bytes = H5Dget_storage_size(set);
-    if (begin != HADDR_UNDEF && (begin > size || bytes > size - begin)) samples_missing(access.path, path, begin + bytes, size);
-}
 
 Hdf5Place place_volume(const Hdf5Array& array, int rank, VolumeInfo& info) {
     const std::size_t dims = array.dims.size();

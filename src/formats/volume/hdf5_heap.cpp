@@ -1,0 +1,114 @@
+#include "formats/volume/hdf5_heap.h"
+
+#include <algorithm>
+#include <cstring>
+#include <map>
+#include <span>
+
+#include "formats/volume/hdf5_driver.h"
+
+namespace isoatlas {
+namespace {
+
+/// Leaves what a list is in a file: its length, the address of its heap, its number there. HDF5 would follow them. Both types have one
+/// size.
+herr_t keep_places(hid_t from, hid_t to, H5T_cdata_t* conversion, std::size_t, std::size_t, std::size_t, void*, void*, hid_t) {
+    conversion->need_bkg = H5T_BKG_NO;
+    return conversion->command != H5T_CONV_CONV || H5Tget_size(from) == H5Tget_size(to) ? 0 : -1;
+}
+
+/// Of a file: where its addresses begin, and their bytes.
+struct Frame {
+    File* file = nullptr;
+    std::uint64_t base = 0;
+    std::size_t address_bytes = 0, length_bytes = 0;
+};
+
+std::uint64_t number_at(std::span<const std::byte> bytes, std::size_t at, std::size_t count) {
+    std::uint64_t value = 0;
+    for (std::size_t i = count; i-- > 0;) value = value << 8 | std::to_integer<std::uint64_t>(bytes[at + i]);
+    return value;
+}
+
+bool fill_from(const Frame& frame, std::uint64_t offset, std::span<std::byte> out) {
+    for (std::size_t done = 0; done < out.size();) {
+        const std::ptrdiff_t got = frame.file->read_at(static_cast<std::int64_t>(offset + done), out.subspan(done));
+        if (got <= 0) return false;
+        done += static_cast<std::size_t>(got);
+    }
+    return true;
+}
+
+/// The objects of a heap, behind one another: number, references, size, bytes.
+std::vector<std::byte> read_collection(const Frame& frame, std::uint64_t address) {
+    constexpr std::size_t kMostBytes = std::size_t{64} << 20, kSizeAt = 8;
+    const auto all = static_cast<std::uint64_t>(frame.file->size());
+    std::vector<std::byte> bytes(kSizeAt + frame.length_bytes);
+    if (address > all || frame.base > all - address) return {};
+    const std::uint64_t offset = frame.base + address, rest = all - offset;
+    if (rest < bytes.size() || !fill_from(frame, offset, bytes) || std::memcmp(bytes.data(), "GCOL\1", 5) != 0) return {};
+    const std::uint64_t size = number_at(bytes, kSizeAt, frame.length_bytes);
+    if (size < bytes.size() || size > rest || size > kMostBytes) return {};
+    bytes.resize(static_cast<std::size_t>(size));
+    return fill_from(frame, offset, bytes) ? bytes : std::vector<std::byte>{};
+}
+
+std::span<const std::byte> object_of(const Frame& frame, std::span<const std::byte> heap, std::uint64_t number) {
+    const std::size_t header = 8 + frame.length_bytes;
+    for (std::size_t at = header; at + header <= heap.size();) {
+        const std::uint64_t found = number_at(heap, at, 2), size = number_at(heap, at + 8, frame.length_bytes);
+        at += header;
+        if (found == 0 || size > heap.size() - at) break;  // 0: free to the end
+        if (found == number) return heap.subspan(at, static_cast<std::size_t>(size));
+        at += std::min(heap.size() - at, static_cast<std::size_t>((size + 7) / 8 * 8));
+    }
+    return {};
+}
+
+Frame frame_of(hid_t attribute) {
+    Frame frame;
+    const Hdf5Handle file(H5Iget_file_id(attribute), H5Fclose), creation(H5Fget_create_plist(file), H5Pclose);
+    hsize_t base = 0;
+    if (file < 0 || creation < 0 || H5Pget_userblock(creation, &base) < 0 ||
+        H5Pget_sizes(creation, &frame.address_bytes, &frame.length_bytes) < 0)
+        return frame;
+    frame.base = base;
+    const auto is_known = [](std::size_t bytes) { return bytes == 2 || bytes == 4 || bytes == 8; };
+    if (is_known(frame.address_bytes) && is_known(frame.length_bytes)) frame.file = file_of_hdf5(file);
+    return frame;
+}
+
+}  // namespace
+
+std::vector<std::vector<std::byte>> read_hdf5_lists(hid_t attribute, std::size_t element) {
+    static const bool is_registered = [] {
+        const Hdf5Handle list(H5Tvlen_create(H5T_NATIVE_UCHAR), H5Tclose), place(H5Tcreate(H5T_OPAQUE, 1), H5Tclose);
+        return H5Tregister(H5T_PERS_SOFT, "isoatlas lists", list, place, keep_places) >= 0;
+    }();
+    std::vector<std::vector<std::byte>> lists;
+    const Frame frame = frame_of(attribute);
+    const Hdf5Handle space(H5Aget_space(attribute), H5Sclose);
+    const hssize_t count = H5Sget_simple_extent_npoints(space);
+    const std::size_t size = 8 + frame.address_bytes;
+    if (!is_registered || frame.file == nullptr || count <= 0 || H5Aget_storage_size(attribute) / size < static_cast<hsize_t>(count))
+        return lists;
+    const Hdf5Handle place(H5Tcreate(H5T_OPAQUE, size), H5Tclose);
+    std::vector<std::byte> places(static_cast<std::size_t>(count) * size);
+    if (H5Aread(attribute, place, places.data()) < 0) return lists;
+    std::map<std::uint64_t, std::vector<std::byte>> heaps;
+    for (std::size_t at = 0; at < places.size(); at += size) {
+        const std::uint64_t length = number_at(places, at, 4) * element, address = number_at(places, at + 4, frame.address_bytes),
+                            number = number_at(places, at + 4 + frame.address_bytes, 4);
+        std::span<const std::byte> object;
+        if (length > 0 && number > 0) {
+            const auto [heap, is_new] = heaps.try_emplace(address);
+            if (is_new) heap->second = read_collection(frame, address);
+            object = object_of(frame, heap->second, number);
+        }
+        object = object.size() < length ? std::span<const std::byte>{} : object.first(static_cast<std::size_t>(length));
+        lists.emplace_back(object.begin(), object.end());
+    }
+    return lists;
+}
+
+}  // namespace isoatlas
