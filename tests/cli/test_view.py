@@ -366,7 +366,7 @@ class View(harness.CliTest):
             self.assertEqual((answer.split()[1], b"Location: /enter\r\n" in answer), (status, status == b"303"))
         status, _, page = self.ask("/enter", token="")
         self.assertEqual(status, 200)
-        self.assertIn(b'location.replace("/"+location.hash)', page)
+        self.assertIn(b'location.replace("./"+location.hash)', page)
 
     def test_who_may_ask(self):
         for path in ("/api/atlas", "/api/events", "/api/label?tau=0"):

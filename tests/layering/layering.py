@@ -41,7 +41,7 @@ PUBLIC = {
     "formats/mesh": "evolution_file",
     "remote": "remote",
     "census": "search_table",
-    "atlas": "atlas build dump locate navigator",
+    "atlas": "atlas build collection dump locate navigator",
     "measures": "measures thickness",
     "image": "image",
     "render": "render",
@@ -64,7 +64,7 @@ DOORS = {
     r"tbb/.*|oneapi/.*": r"src/base/parallel\.cpp",
     r"future|condition_variable|stop_token": r"(apps|tests|bench)/.*|src/base/memory_budgets\.h|src/base/workers\.h|src/server/(job_queue|version_counter|shared_once)\.h",
     r"thread": r"(apps|tests|bench)/.*|src/base/parallel.*\.cpp|src/base/cancel\.h|src/base/memory_(budgets\.h|limit\.cpp)|src/base/workers\.h",  # asks which thread it is on; watches memory, computes nothing
-    r"mutex": r"(apps|tests|bench|src/base)/.*|src/analysis/analysis_data\.h|src/zones/open_voxels\.h|src/methods/zones/filing_runs\.h|src/formats/common/hdf5_(handle\.h|layout\.cpp)|src/formats/volume/hdf5_(file|samples|storage|driver|object)\.cpp|src/bricks/(stored_samples|brick_cache|brick_histogram)\.(h|cpp)|src/atlas/atlas\.cpp|src/remote/.*|src/server/(job_queue|version_counter|store_state|event_stream|shared_once|access_control|naming|shared_scene)\.h",  # std::once_flag: the index is made when first asked for
+    r"mutex": r"(apps|tests|bench|src/base)/.*|src/analysis/analysis_data\.h|src/zones/open_voxels\.h|src/methods/zones/filing_runs\.h|src/formats/common/hdf5_(handle\.h|layout\.cpp)|src/formats/volume/hdf5_(file|samples|storage|driver|object)\.cpp|src/bricks/(stored_samples|brick_cache|brick_histogram)\.(h|cpp)|src/atlas/atlas\.cpp|src/remote/.*|src/server/(job_queue|version_counter|store_state|event_stream|shared_once|access_control|naming|shared_scene|volume_services)\.h",  # std::once_flag: the index is made when first asked for
     r"mpi\.h": r"(?!)",
     r"tiff.*\.h": r"src/formats/volume/.*tiff.*|tests/.*",
     r"pugixml\.hpp": r"src/formats/.*|tests/.*",
