@@ -29,7 +29,7 @@ constexpr std::int64_t kMaxVolumes = 1'000'000;
 std::string index_of(const std::string& path) { return path.ends_with(kIndex) ? path : path + (path.ends_with('/') ? "" : "/") + kIndex; }
 
 /// The folder of the index, as a prefix of names: "" of the current one.
-std::string folder_of(const std::string& index) { return index.substr(0, index.size() - std::string_view(kIndex).size()); }
+std::string folder_of_index(const std::string& index) { return index.substr(0, index.size() - std::string_view(kIndex).size()); }
 
 /// A plain name of a file of the folder.
 bool is_plain(const std::string& name) {
@@ -115,7 +115,7 @@ bool is_collection(const std::string& path) {
 Collection read_collection(const std::string& path) {
     const std::string index = index_of(path);
     const Json json = read_json_file(index, kSchema, kDamaged, kNext);
-    std::string folder = folder_of(index);
+    std::string folder = folder_of_index(index);
     if (folder.size() > 1) folder.pop_back();  // the slash
     Collection collection;  // member by member: g++ 12 destroys what an aggregate has not made yet when an initializer throws
     collection.folder = folder;

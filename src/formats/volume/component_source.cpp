@@ -11,7 +11,7 @@
 namespace isoatlas {
 namespace {
 
-constexpr std::int64_t kBufferBytes = std::int64_t{1} << 18;
+constexpr std::int64_t kComponentBytes = std::int64_t{1} << 18;
 
 class ComponentSource final : public ByteSource {
 public:
@@ -23,7 +23,7 @@ public:
     void read(std::span<std::byte> out) override {
         const auto sample = static_cast<std::size_t>(sample_), tuple = static_cast<std::size_t>(tuple_);
         ISOATLAS_CHECK(out.size() % sample == 0);
-        const std::size_t at_once = static_cast<std::size_t>(std::max<std::int64_t>(kBufferBytes / tuple_, 1));
+        const std::size_t at_once = static_cast<std::size_t>(std::max<std::int64_t>(kComponentBytes / tuple_, 1));
         for (std::size_t done = 0, all = out.size() / sample; done < all;) {
             const std::size_t count = std::min(at_once, all - done);
             buffer_.resize(count * tuple);

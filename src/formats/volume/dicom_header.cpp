@@ -17,7 +17,7 @@ namespace {
 
 constexpr std::int64_t kUndefined = 0xFFFFFFFF;
 constexpr std::int64_t kMaxValue = 1 << 20;  // bytes of a wanted element
-constexpr std::size_t kMaxDepth = 64;
+constexpr std::size_t kMaxSequenceDepth = 64;
 constexpr std::size_t kDicomPreamble = 128;
 constexpr DicomTag kGroupLength = 0x00020000;
 
@@ -264,8 +264,8 @@ bool DicomParser::step_sequence(Level& level, DicomTag tag) {
 }
 
 void DicomParser::push(Level level) {
-    if (levels_.size() >= kMaxDepth)
-        damaged(level.sequence, "sequences lie in sequences too deeply", "at most " + std::to_string(kMaxDepth) + " levels");
+    if (levels_.size() >= kMaxSequenceDepth)
+        damaged(level.sequence, "sequences lie in sequences too deeply", "at most " + std::to_string(kMaxSequenceDepth) + " levels");
     levels_.push_back(level);
 }
 

@@ -14,7 +14,7 @@
 namespace isoatlas {
 namespace {
 
-constexpr std::int64_t kMaxBytes = std::int64_t{1} << 24;
+constexpr std::int64_t kMaxMipavBytes = std::int64_t{1} << 24;
 
 std::optional<ValueType> type_of_mipav(const std::string& name) {
     static constexpr std::array<std::pair<std::string_view, ValueType>, 8> kTypes{{{"byte", ValueType::i8},
@@ -69,8 +69,8 @@ void read_sizes(const std::string& path, const pugi::xml_node& set, RawHeader& h
 }  // namespace
 
 RawHeader read_mipav_header(const std::string& path) {
-    const std::vector<std::byte> bytes = read_header_bytes(path, kMaxBytes + 1);
-    if (static_cast<std::int64_t>(bytes.size()) > kMaxBytes) bad_field(path, "header", "is longer than 16 MiB", "a header of MIPAV");
+    const std::vector<std::byte> bytes = read_header_bytes(path, kMaxMipavBytes + 1);
+    if (static_cast<std::int64_t>(bytes.size()) > kMaxMipavBytes) bad_field(path, "header", "is longer than 16 MiB", "a header of MIPAV");
     pugi::xml_document document;
     const pugi::xml_parse_result parsed = document.load_buffer(bytes.data(), bytes.size());
     if (!parsed) bad_field(path, "offset " + std::to_string(parsed.offset), std::string("is not XML: ") + parsed.description(), "XML");
