@@ -123,6 +123,10 @@ def render_misses(record, column):
     return column.endswith("times faster") and record[column] < 1 or column in ("flat, s", "shaded, s") and record[column] > 1
 
 
+def format_misses(record, column):
+    return column == "isoatlas / library" and record[column] > 1.3
+
+
 def python_misses(record, column):
     return column == "Python / C++" and record[column] > 1.05
 
@@ -224,6 +228,7 @@ TABLES = [
     ("store-phases", "builds", phases_table),
     ("store-surfaces", "store", lambda document: generic_table(document["surfaces"], store_misses)),
     ("store-objects", "store", lambda document: generic_table(document["objects"])),
+    ("formats", "formats", lambda document: generic_table(document["formats"], format_misses)),
     ("render", "render", lambda document: generic_table(document["pictures"], render_misses)),
     ("pages", "pages", lambda document: generic_table(document["pages"], page_misses)),
     ("python-surfaces", "python", lambda document: generic_table(document["surfaces"], python_misses)),

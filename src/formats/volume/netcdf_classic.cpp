@@ -245,13 +245,14 @@ public:
         for (std::int64_t z = box.begin[2]; z < box.end[2]; ++z) {
             for (std::int64_t y = 0; y < rows; ++y, done += bytes) {
                 const std::int64_t at = begin_ + box.begin[0] * stride_[0] + (box.begin[1] + y) * stride_[1] + z * stride_[2];
+                const std::span<std::byte> part = out.subspan(done, bytes);
                 if (are_rows)
-                    read_fully(*file_, info_.path, at, out.subspan(done, bytes));
+                    read_fully(*file_, info_.path, at, part);
                 else
-                    read_row(at, out.subspan(done, bytes));
+                    read_row(at, part);
+                if (needs_swap(true)) swap_bytes(part, static_cast<std::size_t>(sample_));  // while it is in the cache
             }
         }
-        if (needs_swap(true)) swap_bytes(out, static_cast<std::size_t>(sample_));
     }
 
 private:

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cstring>
 #include <limits>
 
 #include "base/check.h"
@@ -58,10 +59,18 @@ private:
     bool end_checked_ = false;
 };
 
-template <std::size_t kBytes>
+std::uint16_t swapped(std::uint16_t bits) { return __builtin_bswap16(bits); }
+std::uint32_t swapped(std::uint32_t bits) { return __builtin_bswap32(bits); }
+std::uint64_t swapped(std::uint64_t bits) { return __builtin_bswap64(bits); }
+
+/// Bits: as wide as a sample; no reversal of bytes one by one, which compilers do not see through.
+template <class Bits>
 void swap_each(std::span<std::byte> samples) {
-    for (std::size_t i = 0; i + kBytes <= samples.size(); i += kBytes) {
-        std::reverse(samples.begin() + static_cast<std::ptrdiff_t>(i), samples.begin() + static_cast<std::ptrdiff_t>(i + kBytes));
+    for (std::size_t i = 0; i + sizeof(Bits) <= samples.size(); i += sizeof(Bits)) {
+        Bits bits = 0;
+        std::memcpy(&bits, samples.data() + i, sizeof bits);
+        bits = swapped(bits);
+        std::memcpy(samples.data() + i, &bits, sizeof bits);
     }
 }
 
@@ -117,9 +126,9 @@ void tidy_texts(VolumeInfo& info) {
 }
 
 void swap_bytes(std::span<std::byte> samples, std::size_t bytes_per_sample) {
-    if (bytes_per_sample == 2) swap_each<2>(samples);
-    if (bytes_per_sample == 4) swap_each<4>(samples);
-    if (bytes_per_sample == 8) swap_each<8>(samples);
+    if (bytes_per_sample == 2) swap_each<std::uint16_t>(samples);
+    if (bytes_per_sample == 4) swap_each<std::uint32_t>(samples);
+    if (bytes_per_sample == 8) swap_each<std::uint64_t>(samples);
 }
 
 bool needs_swap(bool big_endian) { return big_endian != (std::endian::native == std::endian::big); }
