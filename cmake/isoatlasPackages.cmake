@@ -36,6 +36,8 @@ macro(isoatlas_find_packages library)
   elseif("${library}" STREQUAL formats)
     isoatlas_find(ZLIB zlib1g-dev)
     isoatlas_find(TIFF libtiff-dev)
+    isoatlas_find(PNG libpng-dev)
+    isoatlas_find(JPEG libjpeg-dev)
     isoatlas_find(pugixml libpugixml-dev)
     isoatlas_import(hdf5 libhdf5-dev hdf5.h hdf5_serial hdf5)  # FindHDF5 needs a C compiler
     isoatlas_import(blosc libblosc-dev blosc.h blosc)

@@ -17,6 +17,8 @@ demo|ninja-build|runs the build
 demo|libtbb-dev|threads
 demo|zlib1g-dev|compressed NRRD, NIfTI, MetaImage and VTK files
 demo|libtiff-dev|TIFF stacks
+demo|libpng-dev|slices in PNG files
+demo|libjpeg-dev|slices in JPEG files
 demo|libpugixml-dev|VTK XML files
 demo|libhdf5-dev|stores, VTKHDF files, HDF5 and NetCDF volumes
 demo|libgdcm-dev|compressed DICOM files
@@ -65,7 +67,7 @@ test|python3-zarr|independent reader and writer of Zarr arrays
 test|python3-pydicom|independent reader and writer of DICOM files
 test|python3-tifffile|independent reader and writer of TIFF files
 test|chromium|opens the page
-test|python3-pil|independent reader of the pictures we write
+test|python3-pil|independent reader and writer of pictures
 test|python3-h5py|independent reader of stores, writer of HDF5 volumes
 test|python3-netcdf4|independent writer of NetCDF files
 test|python3-networkx|independent reader of the trees we write

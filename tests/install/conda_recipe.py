@@ -15,6 +15,7 @@ except ImportError:
 COUNTERPARTS = {
     "make": None, "npm": ("build", "nodejs"), "nodejs": ("build", "nodejs"), "g++": ("build", "compiler_cxx"), "cmake": ("build", "cmake"),
     "ninja-build": ("build", "ninja"), "libtbb-dev": ("host", "tbb-devel"), "zlib1g-dev": ("host", "zlib"), "libtiff-dev": ("host", "libtiff"),
+    "libpng-dev": ("host", "libpng"), "libjpeg-dev": ("host", "libjpeg-turbo"),
     "libpugixml-dev": ("host", "pugixml"), "libhdf5-dev": ("host", "hdf5"), "libxxhash-dev": ("host", "xxhash"),
     "libcurl4-openssl-dev": ("host", "libcurl"),
     "libgdcm-dev": ("host", "gdcm"),

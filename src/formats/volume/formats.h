@@ -34,6 +34,12 @@ using FirstBytes = std::span<const std::byte>;
 [[nodiscard]] bool looks_like_tiff(FirstBytes first, const std::string& path);
 [[nodiscard]] std::unique_ptr<VolumeReader> open_tiff(const std::string& path, const OpenOptions& options);
 
+/// A single picture is a volume of rank 2.
+[[nodiscard]] bool looks_like_png(FirstBytes first, const std::string& path);
+[[nodiscard]] bool looks_like_jpeg(FirstBytes first, const std::string& path);
+[[nodiscard]] bool looks_like_bmp(FirstBytes first, const std::string& path);
+[[nodiscard]] std::unique_ptr<VolumeReader> open_picture(const std::string& path, const OpenOptions& options);
+
 [[nodiscard]] bool looks_like_mrc(FirstBytes first, const std::string& path);
 [[nodiscard]] std::unique_ptr<VolumeReader> open_mrc(const std::string& path, const OpenOptions& options);
 

@@ -21,7 +21,8 @@ namespace {
 
 constexpr std::int64_t kFirstBytes = 4096;
 constexpr const char* kSupported =
-    "NRRD (.nrrd .nhdr), MetaImage (.mha .mhd), NIfTI-1 (.nii .nii.gz), NumPy (.npy), VTK image (.vti .vtk), TIFF (.tif), MRC (.mrc .map), "
+    "NRRD (.nrrd .nhdr), MetaImage (.mha .mhd), NIfTI-1 (.nii .nii.gz), NumPy (.npy), VTK image (.vti .vtk), TIFF (.tif), PNG, JPEG, BMP, "
+    "MRC (.mrc .map), "
     "DICOM, HDF5 (.h5 .ims .vtkhdf), NetCDF (.nc), Amira (.am), OpenVDB (.vdb), BOV (.bov), OME-Zarr and Zarr (a folder, or .zip), a "
     "folder of slices, RAW "
     "(also by its .dat or .xml)";
@@ -33,7 +34,7 @@ struct ReadFormat {
     std::unique_ptr<VolumeReader> (*open)(const std::string&, const OpenOptions&);
 };
 
-constexpr std::array<ReadFormat, 16> kReadFormats = {
+constexpr std::array<ReadFormat, 19> kReadFormats = {
     {{"DICOM", ".dcm .dicom .ima", looks_like_dicom, open_dicom},  // its preamble may be a TIFF file
      {"NRRD", ".nrrd .nhdr", looks_like_nrrd, open_nrrd},
      {"NIfTI", ".nii .nii.gz", looks_like_nifti, open_nifti},
@@ -41,6 +42,9 @@ constexpr std::array<ReadFormat, 16> kReadFormats = {
      {"VTK image", ".vti", looks_like_vti, open_vti},
      {"VTK legacy", ".vtk", looks_like_vtk_legacy, open_vtk_legacy},
      {"TIFF", ".tif .tiff", looks_like_tiff, open_tiff},
+     {"PNG", ".png", looks_like_png, open_picture},
+     {"JPEG", ".jpg .jpeg", looks_like_jpeg, open_picture},
+     {"BMP", ".bmp .dib", looks_like_bmp, open_picture},
      {"MRC", ".mrc .map .ccp4 .rec .st .ali .mrcs", looks_like_mrc, open_mrc},
      {"Amira", ".am .amiramesh", looks_like_amira, open_amira},
      {"OpenVDB", ".vdb", looks_like_vdb, open_vdb},
@@ -52,12 +56,11 @@ constexpr std::array<ReadFormat, 16> kReadFormats = {
      {"a header of RAW files", "", looks_like_raw_header, open_raw_header}}};  // other files may have these names
 
 /// Common formats that isoatlas does not read, and how to convert them.
-constexpr std::array<std::pair<std::string_view, const char*>, 6> kForeign = {
+constexpr std::array<std::pair<std::string_view, const char*>, 5> kForeign = {
     {{".hdr", "give the .nii or .mhd file of the pair; of an ANALYZE pair the .img file must be beside it"},
      {".img", "open it as RAW with the sizes and the type of its samples, or convert the pair to NIfTI"},
      {".mat", "save it with -v7.3, or export the array to .npy (scipy.io.loadmat and numpy.save)"},
      {".fits", "export the cube to .npy (astropy.io.fits and numpy.save)"},
-     {".png", "give the folder that holds the slices, or convert the image to TIFF"},
      {".npz", "save the array by itself: numpy.save"}}};
 
 bool has_extension(const std::string& path, const ReadFormat& format) {

@@ -10,13 +10,16 @@
 namespace isoatlas {
 namespace {
 
-constexpr std::array<const char*, 4> kColourChannels = {"red", "green", "blue", "luminance"};
-constexpr int kLuminance = 3;
+constexpr std::array<const char*, 5> kColourChannels = {"red", "green", "blue", "luminance", "index"};
+constexpr int kLuminance = 3, kIndex = 4;
 constexpr std::array<std::int64_t, 3> kWeights = {19595, 38470, 7471};  // of red, green and blue, ITU-R BT.601; their sum is 2^16
 constexpr int kWeightBits = 16;
 
 /// What of a pixel can be chosen: its samples, of a colour its luminance, too.
-int choices_in(const PixelKind& kind) { return kind.is_rgb ? static_cast<int>(kColourChannels.size()) : kind.values(); }
+int choices_in(const PixelKind& kind) {
+    if (!kind.is_rgb) return kind.values();
+    return kind.has_index ? kIndex + 1 : kLuminance + 1;
+}
 
 std::string name_of_channel(const std::vector<std::string>& planes, std::size_t plane, int choice, const PixelKind& kind) {
     if (choices_in(kind) == 1) return planes[plane];
@@ -51,14 +54,16 @@ ChannelChoice choose_pixels(const std::string& path, const OpenOptions& options,
     if (kind.alphas > 0) info.notes.emplace_back("the transparency (alpha) of the pixels is ignored");
     std::int64_t channel = kLuminance;
     if (kind.is_rgb && planes.size() == 1 && !options.channel)
-        info.notes.emplace_back("the pixels are colours: their luminance is read; a channel chooses red, green or blue");
+        info.notes.push_back(std::string("the pixels are colours: their luminance is read; a channel chooses red, green or blue") +
+                             (kind.has_index ? ", or their index in the colour table" : ""));
     else
         channel = choose_channel(path, options, names);
     info.volumes.channel = channel;
     if (names.size() > 1 || !names[0].empty()) info.volumes.channels = std::move(names);
     const auto choice = static_cast<int>(channel % each);
     const bool is_luminance = kind.is_rgb && choice == kLuminance;
-    return {.plane = channel / each, .pixel = {.sample = is_luminance ? 0 : choice, .is_luminance = is_luminance}};
+    const int sample = !kind.is_rgb || choice < kLuminance ? choice : is_luminance ? 0 : kIndex - 1;
+    return {.plane = channel / each, .pixel = {.sample = sample, .is_luminance = is_luminance}};
 }
 
 void take_values(std::span<const std::byte> pixels, int samples, ValueType type, const PixelChoice& choice, std::span<std::byte> out) {

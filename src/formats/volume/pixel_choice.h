@@ -18,9 +18,10 @@ struct PixelChoice {
 
 /// The samples of a pixel, interleaved.
 struct PixelKind {
-    int samples = 1;      ///< with alpha
-    int alphas = 0;       ///< the last of them, which are never read
-    bool is_rgb = false;  ///< the first three are red, green and blue
+    int samples = 1;         ///< with alpha
+    int alphas = 0;          ///< the last of them, which are never read
+    bool is_rgb = false;     ///< the first three are red, green and blue
+    bool has_index = false;  ///< the colours are of a table; a fourth sample, the last, is their index in it
     [[nodiscard]] int values() const { return samples - alphas; }
     bool operator==(const PixelKind&) const = default;
 };
@@ -31,8 +32,8 @@ struct ChannelChoice {
 };
 
 /// options.channel among channels whose pixels are apart (`planes`: their names, at least one) and the samples of their pixels. A colour
-/// has the channels red, green, blue and luminance. Unset: the only one, or the luminance of the only colour, with a note. Sets
-/// info.volumes. Throws Error{usage} as choose_channel().
+/// has the channels red, green, blue, luminance, and index where it has one. Unset: the only one, or the luminance of the only colour, with
+/// a note. Sets info.volumes. Throws Error{usage} as choose_channel().
 [[nodiscard]] ChannelChoice choose_pixels(const std::string& path, const OpenOptions& options, const std::vector<std::string>& planes,
                                           const PixelKind& kind, VolumeInfo& info);
 
