@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Writes the seeds of the NIfTI, VTK XML and TIFF targets into tests/fuzz/corpus (the files are committed; this says how they were made)."""
+"""Writes the seeds of the NIfTI, VTK XML, TIFF and picture targets into tests/fuzz/corpus (the files are committed; this says how they were made)."""
 import base64
 import gzip
 import pathlib
@@ -114,7 +114,53 @@ def tiff(order="<", pages=2, compression=1, tiled=False, description=b""):
     return bytes(out)
 
 
+def png(colour=0, depth=8, channels=1, interlaced=False, table=False, chunks=()):
+    """6 x 4 pixels (interlaced: 1 x 1)."""
+    width, height = (1, 1) if interlaced else (6, 4)
+    row = (width * channels * depth + 7) // 8
+    rows = b"".join(b"\0" + (2 * SAMPLES)[y : y + row] for y in range(height))
+    parts = [(b"IHDR", struct.pack(">IIBBBBB", width, height, depth, colour, 0, 0, interlaced))]
+    if table:
+        parts.append((b"PLTE", bytes(range(3 * 48))))
+    parts += [*chunks, (b"IDAT", zlib.compress(rows)), (b"IEND", b"")]
+    return b"\x89PNG\r\n\x1a\n" + b"".join(
+        struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data)) for kind, data in parts)
+
+
+def bmp(bits=24, height=4, core=False):
+    """3 pixels wide."""
+    table = b"" if bits > 8 else b"".join(bytes([i, i, 40 - i]) + (b"" if core else b"\0") for i in range(40))
+    header = struct.pack("<IHHHH", 12, 3, height, 1, bits) if core else struct.pack("<IiiHHIIiiII", 40, 3, height, 1, bits, 0, 0, 2835, 2835, len(table) // 4, 0)
+    begin = 14 + len(header) + len(table)
+    return b"BM" + struct.pack("<IHHI", begin + 48, 0, 0, begin) + header + table + bytes(range(0, 40)) + bytes(8)
+
+
+# 16 x 8 pixels of Pillow: grey levels, and progressive colours
+JPEG = base64.b64decode(
+    "/9j/4AAQSkZJRgABAQAAAQABAAD/2wBDABsSFBcUERsXFhceHBsgKEIrKCUlKFE6PTBCYFVlZF9VXVtqeJmBanGQc1tdhbWGkJ6jq62rZ4C8ybqmx5moq6T/wAALCAAIAB"
+    "ABAREA/8QAFQABAQAAAAAAAAAAAAAAAAAAAgP/xAAXEAADAQAAAAAAAAAAAAAAAAAAAgVi/9oACAEBAAA/AAsLBVYWD//Z")
+PROGRESSIVE = base64.b64decode(
+    "/9j/4AAQSkZJRgABAQAAAQABAAD/2wBDACgcHiMeGSgjISMtKygwPGRBPDc3PHtYXUlkkYCZlo+AjIqgtObDoKrarYqMyP/L2u71////m8H////6/+b9//j/2wBDASstLT"
+    "w1PHZBQXb4pYyl+Pj4+Pj4+Pj4+Pj4+Pj4+Pj4+Pj4+Pj4+Pj4+Pj4+Pj4+Pj4+Pj4+Pj4+Pj4+Pj4+Pj/wgARCAAIABADASIAAhEBAxEB/8QAFQABAQAAAAAAAAAAAAAA"
+    "AAAAAAH/xAAUAQEAAAAAAAAAAAAAAAAAAAAC/9oADAMBAAIQAxAAAAGUb//EABQQAQAAAAAAAAAAAAAAAAAAABD/2gAIAQEAAQUCP//EABYRAAMAAAAAAAAAAAAAAAAAAA"
+    "ACE//aAAgBAwEBPwGan//EABYRAQEBAAAAAAAAAAAAAAAAAAEAAv/aAAgBAgEBPwFwX//EABQQAQAAAAAAAAAAAAAAAAAAABD/2gAIAQEABj8CP//EABUQAQEAAAAAAAAA"
+    "AAAAAAAAAAAR/9oACAEBAAE/Iar/2gAMAwEAAgADAAAAEPf/xAAVEQEBAAAAAAAAAAAAAAAAAAAAYf/aAAgBAwEBPxCT/8QAFREBAQAAAAAAAAAAAAAAAAAAAFH/2gAIAQ"
+    "IBAT8Qjf/EABUQAQEAAAAAAAAAAAAAAAAAAAAB/9oACAEBAAE/EIx//9k=")
+
+
 def main():
+    write("picture", "png", png())
+    write("picture", "png_bit", png(depth=1))
+    write("picture", "png_deep", png(depth=16, chunks=[(b"pHYs", struct.pack(">IIB", 2835, 2835, 1))]))
+    write("picture", "png_table", png(colour=3, table=True, chunks=[(b"tRNS", b"\1\2")]))
+    write("picture", "png_colours", png(colour=6, channels=4))
+    write("picture", "png_interlaced", png(colour=2, channels=3, depth=16, interlaced=True))
+    write("picture", "bmp", bmp())
+    write("picture", "bmp_alpha", bmp(bits=32, height=-3))
+    write("picture", "bmp_table", bmp(bits=8))
+    write("picture", "bmp_core", bmp(core=True))
+    write("picture", "jpeg", JPEG)
+    write("picture", "jpeg_progressive", PROGRESSIVE)
     write("nifti", "little", nifti1() + SAMPLES)
     write("nifti", "big", nifti1(">") + SAMPLES)
     write("nifti", "qform", nifti1(sform=0) + SAMPLES)

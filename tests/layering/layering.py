@@ -67,7 +67,7 @@ DOORS = {
     r"mutex": r"(apps|tests|bench|src/base)/.*|src/analysis/analysis_data\.h|src/zones/open_voxels\.h|src/methods/zones/filing_runs\.h|src/formats/common/hdf5_(handle\.h|layout\.cpp)|src/formats/volume/hdf5_(file|samples|storage|driver|object)\.cpp|src/bricks/(stored_samples|brick_cache|brick_histogram)\.(h|cpp)|src/atlas/atlas\.cpp|src/remote/.*|src/server/(job_queue|version_counter|store_state|event_stream|shared_once|access_control|naming|shared_scene|volume_services)\.h",  # std::once_flag: the index is made when first asked for
     r"mpi\.h": r"(?!)",
     r"tiff.*\.h": r"src/formats/volume/.*tiff.*|tests/.*",
-    r"png\.h|pngconf\.h": r"src/formats/volume/png_picture\.cpp",
+    r"png\.h": r"src/formats/volume/png_picture\.cpp",
     r"jpeglib\.h|jerror\.h": r"src/formats/volume/jpeg_picture\.cpp",
     r"csetjmp|setjmp\.h": r"src/formats/volume/picture_input\.h",
     r"pugixml\.hpp": r"src/formats/.*|tests/.*",

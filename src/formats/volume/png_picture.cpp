@@ -79,7 +79,8 @@ private:
             png_set_user_limits(png_, std::numeric_limits<std::int32_t>::max(), std::numeric_limits<std::int32_t>::max());
             png_set_crc_action(png_, PNG_CRC_ERROR_QUIT, PNG_CRC_ERROR_QUIT);
             png_set_benign_errors(png_, 0);
-            png_set_keep_unknown_chunks(png_, PNG_HANDLE_CHUNK_NEVER, nullptr, -1);  // all but tRNS and pHYs of those that may be left out
+            png_set_keep_unknown_chunks(png_, PNG_HANDLE_CHUNK_NEVER, nullptr, -1);  // all but tRNS of those that may be left out
+            png_set_keep_unknown_chunks(png_, PNG_HANDLE_CHUNK_AS_DEFAULT, reinterpret_cast<png_const_bytep>("pHYs"), 1);
             png_read_info(png_, info_);
         });
         picture_.width = png_get_image_width(png_, info_);

@@ -90,9 +90,9 @@ TEST_F(Folder, FilesThatChangeAfterwards) {
 TEST_F(Folder, OtherContents) {
     expect_helpful(failure_of_loading(path()), ErrorKind::input, "no slices");
     folder_.write("picture.png", "x");
-    expect_helpful(failure_of_loading(path()), ErrorKind::unsupported, "not TIFF");
+    expect_helpful(failure_of_loading(path()), ErrorKind::input, "picture.png");
     folder_.write("IM0001", std::string(128, '\0') + "DICM");
-    expect_helpful(failure_of_loading(path()), ErrorKind::unsupported, "not TIFF");  // DICOM without a picture
+    expect_helpful(failure_of_loading(path()), ErrorKind::input, "picture.png");  // DICOM without a picture
     std::filesystem::create_directory(folder_ / "image.zarr");
     for (const char* name : {".zarray", ".zgroup", "zarr.json"}) {
         const std::string zarr = folder_.write(std::string("image.zarr/") + name, "{}");
