@@ -142,6 +142,20 @@ def test_spacing(suffix, options, length, tmp_path):
     assert isoatlas.open(folder, spacing=(3, 2, 1)).info["spacing"] == [1, 2, 3]
 
 
+def test_a_given_spacing_is_not_assumed(tmp_path):
+    folder = save_slices(tmp_path / "v", [Image.fromarray(random((9, 8)))] * 3, "png", dpi=(254, 254))
+    info = isoatlas.open(folder, spacing=(0.3, 0.2, 0.1)).info
+    assert info["spacing"] == [0.1, 0.2, 0.3] and not any("slice spacing" in note for note in info["notes"])
+
+
+def test_chunks_out_of_place_do_not_matter(tmp_path):
+    image, extra = Image.fromarray(random((9, 8))), PngImagePlugin.PngInfo()
+    for kind, data in [(b"gAMA", b"wrong"), (b"pHYs", b"short"), (b"iCCP", b"x\0\0no stream"), (b"tRNS", b"too long"), (b"PLTE", b"abc")]:
+        extra.add(kind, data)
+    image.save(tmp_path / "v.png", pnginfo=extra)
+    expect(tmp_path / "v.png", np.asarray(image))
+
+
 def test_spacing_without_a_unit_is_not_taken(tmp_path):
     image, extra = Image.fromarray(random((9, 8))), PngImagePlugin.PngInfo()
     extra.add(b"pHYs", b"\0\0\0\2\0\0\0\1\0")

@@ -113,7 +113,7 @@ private:
         picture_.height = jpeg_.image_height;
         const J_COLOR_SPACE colours = jpeg_.jpeg_color_space;
         const bool is_grey = colours == JCS_GRAYSCALE, is_colour = colours == JCS_YCbCr || colours == JCS_RGB;
-        if (!is_grey && !is_colour) unsupported("the pixels are CMYK or other than grey levels and colours");
+        if (!is_grey && !is_colour) unsupported("the pixels are neither grey levels nor colours of three values (but CMYK, for example)");
         constexpr int kBits = 8;
         if (jpeg_.data_precision != kBits) unsupported("the samples have " + std::to_string(jpeg_.data_precision) + " bits");
         if (jpeg_.arith_code != FALSE) unsupported("the picture is in arithmetic codes");

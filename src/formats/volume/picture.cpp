@@ -23,6 +23,14 @@ bool has_name_of_pictures(const std::string& path) {
     return std::ranges::any_of(kNames, [&](std::string_view end) { return ends_with_ignoring_case(path, end); });
 }
 
+/// Links that are not followed are not looked at either, unless their names say that they are slices.
+bool is_slice(const std::string& path, bool follow_links) {
+    if (has_name_of_pictures(path)) return true;
+    std::error_code ignored;
+    if (!follow_links && std::filesystem::is_symlink(path, ignored)) return false;
+    return picture_kind(read_header_bytes(path, kSignatureBytes)).has_value();
+}
+
 std::unique_ptr<PictureFile> open_picture_file(const std::string& path) {
     const std::vector<std::byte> first = read_header_bytes(path, kSignatureBytes);
     const std::optional<PictureKind> kind = picture_kind(first);
@@ -77,7 +85,7 @@ void add_notes(const Picture& picture, std::vector<std::string>& notes) {
 std::unique_ptr<VolumeReader> picture_reader(VolumeInfo info, std::vector<std::string> files, const Picture& first,
                                              const OpenOptions& options) {
     const std::int64_t slices = std::ssize(files);
-    info.encoding = first.kind == PictureKind::bmp ? "raw" : name_of(first.kind);
+    info.encoding = first.kind == PictureKind::png ? "deflate" : first.kind == PictureKind::jpeg ? "DCT" : "raw";
     info.type = first.type;
     info.big_endian = first.type == ValueType::u16;
     info.extent = {.rank = slices == 1 ? 2 : 3, .size = {first.width, first.height, slices}};
@@ -86,7 +94,7 @@ std::unique_ptr<VolumeReader> picture_reader(VolumeInfo info, std::vector<std::s
     if (first.spacing[0] > 0 && first.spacing[1] > 0) {
         info.geometry.spacing = {first.spacing[0], first.spacing[1], first.spacing[0]};
         info.geometry.unit = "mm";
-        if (slices > 1) info.notes.emplace_back("the files have no slice spacing: the pixel width was assumed");
+        if (slices > 1 && !options.spacing) info.notes.emplace_back("the files have no slice spacing: the pixel width was assumed");
     }
     const PixelChoice choice = choose_pixels(info.path, options, {""}, first.pixel, info).pixel;
     const auto reader = std::make_shared<PictureSlices>(std::move(files), first, choice);
@@ -171,7 +179,7 @@ std::unique_ptr<VolumeReader> open_picture_folder(const std::string& path, const
     std::vector<std::string> slices;
     Picture first;
     for (const std::string& name : files) {
-        if (!has_name_of_pictures(name) && !picture_kind(read_header_bytes(name, kSignatureBytes))) {
+        if (!is_slice(name, options.follow_links)) {
             ++others;
             continue;
         }

@@ -78,7 +78,7 @@ private:
             png_set_read_fn(png_, &input_, read_png_bytes);
             png_set_user_limits(png_, std::numeric_limits<std::int32_t>::max(), std::numeric_limits<std::int32_t>::max());
             png_set_crc_action(png_, PNG_CRC_ERROR_QUIT, PNG_CRC_ERROR_QUIT);
-            png_set_benign_errors(png_, 0);
+            png_set_benign_errors(png_, 1);                                          // a chunk out of place is ignored
             png_set_keep_unknown_chunks(png_, PNG_HANDLE_CHUNK_NEVER, nullptr, -1);  // all but tRNS of those that may be left out
             png_set_keep_unknown_chunks(png_, PNG_HANDLE_CHUNK_AS_DEFAULT, reinterpret_cast<png_const_bytep>("pHYs"), 1);
             png_read_info(png_, info_);
@@ -134,6 +134,7 @@ private:
     /// One sample a byte or two, in host byte order.
     void prepare() {
         step([&] {
+            png_set_benign_errors(png_, 0);  // of the pixels nothing may be wrong
             if (table_.size() > 0)
                 png_set_packing(png_);
             else if (depth_ < 8)

@@ -147,9 +147,12 @@ TEST(Picture, FolderOfSlices) {
     std::filesystem::remove(folder / "s2.png");
     std::filesystem::create_symlink(elsewhere.write("s2.png", png({}, telling_bytes(20))), folder / "s2.png");
     expect_helpful(failure_of_loading(path), ErrorKind::input, "link");
+    std::filesystem::create_symlink(elsewhere / "s2.png", folder / "s3");
     OpenOptions follow;
     follow.follow_links = true;
-    EXPECT_EQ(open_volume(path, follow)->info().extent.size[2], 3);
+    EXPECT_EQ(open_volume(path, follow)->info().extent.size[2], 4);
+    std::filesystem::remove(folder / "s2.png");
+    EXPECT_EQ(open_volume(path)->info().extent.size[2], 2);
 }
 
 TEST(Picture, ClaimsBeyondTheFile) {
