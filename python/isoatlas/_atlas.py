@@ -121,7 +121,7 @@ class Atlas:
         return self._source.volume(call()).samples
 
     def save(self, path: Path) -> None:
-        """Writes the samples as .nrrd, .npy, .raw, .mha, .mrc, .vdb, .vti, .nii, .nii.gz or .tif, as ``isoatlas convert``."""
+        """Writes the samples as .nrrd, .npy, .raw, .mha, .mrc, .vdb, .h5, .vti, .nii, .nii.gz or .tif, as ``isoatlas convert``."""
         self._source.volume(call()).write(os.fspath(path))
 
     def __repr__(self) -> str:
@@ -322,7 +322,7 @@ class Atlas:
 
     def save_labels(self, path: Path, tau: Optional[float] = None, *, keep: int = ROWS, objects: Sequence[Reference] = (),
                     cavities: bool = False, progress: Progress = None, threads: int = 0) -> list[str]:
-        """Writes what :meth:`labels` returns, as ``isoatlas label``: .seg.nrrd, .nrrd, .nii, .nii.gz or .tif; returns warnings."""
+        """Writes what :meth:`labels` returns, as ``isoatlas label``: .seg.nrrd, .nrrd, .nii, .nii.gz, .tif or .h5; returns warnings."""
         labels = self.labels(tau, keep=keep, objects=objects, cavities=cavities, progress=progress, threads=threads)
         if tau is not None:
             self._source.write_labels(os.fspath(path), labels, self._source.stored(float(tau)), cavities)

@@ -205,7 +205,7 @@ def info(path: Path, **reading: Any) -> dict[str, Any]:
 
 def write(path: Path, array: Any, *, spacing: Spacing = None, origin: Any = None, direction: Any = None, unit: Optional[str] = None,
           value_unit: str = "", space: Optional[str] = None) -> None:
-    """Writes an array (z, y, x) as .nrrd, .npy, .raw, .mha, .vti, .nii, .nii.gz or .tif; origin is (x, y, z).
+    """Writes an array (z, y, x) as .nrrd, .npy, .raw, .mha, .h5, .vti, .nii, .nii.gz or .tif; origin is (x, y, z).
 
     Parameters
     ----------

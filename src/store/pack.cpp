@@ -103,7 +103,7 @@ private:
 
 /// Appends the locations of its chunks to `places`.
 void write_chunks(AtomicFile& file, Hdf5Layout& layout, const PackedArray& source, StoredArray& array, std::vector<ByteRange>& places) {
-    layout.begin_chunks("/" + source.name, source.type, array.count(), source.chunk, kDeflateLevel);
+    layout.begin_chunks("/" + source.name, source.type, {array.count()}, {source.chunk}, kDeflateLevel);
     ChunkWriter writer(file, layout, array);
     if (source.feed_chunks) {
         source.feed_chunks([&](std::span<const std::byte> packed) { writer.put_chunk(packed); });

@@ -171,3 +171,90 @@ def test_shared_files_say_what_they_are():
     for name in ("can_0.hdf", "can-vtu.hdf"):
         with pytest.raises(isoatlas.UnsupportedError, match="VTKHDF"):
             read(shared / name).volume
+
+
+@pytest.mark.parametrize("dtype", ["u1", "i1", "u2", "i2", "u4", "i4", "f4", "f8"])
+@pytest.mark.parametrize("shape", [(70, 65, 130), (1, 9, 8), (3, 1, 1), (64, 64, 64), (30, 40), (600, 530)])
+def test_written_arrays_are_read_back(dtype, shape, tmp_path):
+    """By h5py and by isoatlas, also where the last chunks are not full and axes have one sample."""
+    array = (np.random.default_rng(7).random(shape) * 100).astype(dtype)
+    isoatlas.write(tmp_path / "v.h5", array)
+    with h5py.File(tmp_path / "v.h5") as file:
+        assert list(file) == ["volume"]
+        written = file["volume"]
+        assert written.dtype == array.dtype and np.array_equal(written[()], array)
+        edge = 512 if array.ndim == 2 else 64
+        assert written.chunks == tuple(min(edge, size) for size in shape) and written.compression == "gzip" and written.shuffle
+    assert np.array_equal(np.asarray(read(tmp_path / "v.h5").volume).reshape(shape), array)
+
+
+TURNED = [[0.6, -0.8, 0], [0.8, 0.6, 0], [0, 0, -1]]
+
+
+@pytest.mark.parametrize("direction", [None, TURNED])
+@pytest.mark.parametrize("unit", ["mm", "um", "furlong", None])
+def test_written_geometry_is_read_back_exactly(direction, unit, tmp_path):
+    array = np.random.default_rng(8).random((3, 4, 5))
+    isoatlas.write(tmp_path / "v.h5", array, spacing=(0.3, 0.1, 0.7), origin=(1 / 3, -2, 1e5 / 7), direction=direction, unit=unit,
+                   value_unit="HU", space="LPS")
+    info = isoatlas.info(tmp_path / "v.h5")
+    assert list(info["spacing"]) == [0.7, 0.1, 0.3] and list(info["origin"]) == [1 / 3, -2, 1e5 / 7]
+    assert np.array_equal(info["direction"], np.eye(3) if direction is None else direction)
+    isoatlas.write(tmp_path / "v.nrrd", array, unit=unit, value_unit="HU", space="LPS")
+    other = isoatlas.info(tmp_path / "v.nrrd")
+    assert [info[key] for key in ("unit", "value_unit", "space")] == [other[key] for key in ("unit", "value_unit", "space")]
+    with h5py.File(tmp_path / "v.h5") as file:
+        attributes = file["volume"].attrs
+        assert attributes["gridSpacing"].tolist() == [0.3, 0.1, 0.7]
+        assert attributes["axisLabels"].tolist() == [b"z", b"y", b"x"]
+        assert ("gridUnitSI" in attributes) == ("element_size_um" in attributes) == (unit in ("mm", "um"))
+        if unit == "mm":
+            assert np.allclose(attributes["element_size_um"], [300, 100, 700])
+        assert ("gridDirection" in attributes) == (direction is not None)
+
+
+def test_written_images_keep_their_place(tmp_path, cli):
+    isoatlas.write(tmp_path / "v.nrrd", np.arange(20, dtype="u1").reshape(4, 5), spacing=(2, 3), origin=(1, 2, 0), unit="mm")
+    cli("convert", "v.nrrd", "-o", "v.hdf5")
+    info = isoatlas.info(tmp_path / "v.hdf5")
+    assert info["spacing"][:2] == isoatlas.info(tmp_path / "v.nrrd")["spacing"][:2]
+    assert info["origin"] == isoatlas.info(tmp_path / "v.nrrd")["origin"]
+
+
+def test_calibration_and_description_are_written(tmp_path, cli):
+    array = np.arange(60, dtype="i2").reshape(3, 4, 5)
+    with h5py.File(tmp_path / "a.h5", "w") as file:
+        file["v"] = array
+        file["v"].attrs.update({"scale_factor": 0.1, "add_offset": -7.5, "units": "µ", "long_name": "an example"})
+    cli("convert", "a.h5", "-o", "b.h5")
+    with h5py.File(tmp_path / "b.h5") as file:
+        attributes = file["volume"].attrs
+        assert attributes["scale_factor"] == 0.1 and attributes["add_offset"] == -7.5
+        assert attributes["units"].decode() == "µ" and attributes["long_name"] == b"an example"
+    one, other = isoatlas.info(tmp_path / "a.h5"), isoatlas.info(tmp_path / "b.h5")
+    assert all(one[key] == other[key] for key in one.keys() - {"path", "file_bytes", "notes", "encoding", "chunk", "volumes"})
+    first = (tmp_path / "b.h5").read_bytes()
+    cli("convert", "a.h5", "-o", "b.h5")
+    assert (tmp_path / "b.h5").read_bytes() == first
+
+
+def test_written_labels(tmp_path, cli, demo):
+    isoatlas.open(demo).save(tmp_path / "v.nrrd")
+    cli("label", "v.nrrd", "--tau", "120", "-o", "labels.h5")
+    cli("label", "v.nrrd", "--tau", "120", "-o", "labels.npy.nrrd")
+    with h5py.File(tmp_path / "labels.h5") as file:
+        labels, attributes = file["labels"][()], dict(file["labels"].attrs)
+    assert labels.dtype == "u1" and labels.max() > 0
+    assert np.array_equal(labels, read(tmp_path / "labels.npy.nrrd").volume) and np.array_equal(labels, read(tmp_path / "labels.h5").volume)
+    assert attributes["labels_are"] == b"objects" and float(attributes["tau"]) == 120
+    cli("label", "v.nrrd", "--top", "2", "-o", "objects.h5")
+    assert (tmp_path / "objects.csv").read_text().startswith("number,name")
+
+
+def test_half_a_file_is_none(tmp_path, run_cli):
+    array = np.random.default_rng(9).random((64, 64, 64))
+    isoatlas.write(tmp_path / "v.nrrd", array)
+    (tmp_path / "out").mkdir()
+    done = subprocess.run(["bash", "-c", f"ulimit -f 200; exec '{CLI}' convert '{tmp_path}/v.nrrd' -o '{tmp_path}/out/v.h5'"],
+                          capture_output=True, text=True, timeout=300)
+    assert done.returncode != 0 and not list((tmp_path / "out").iterdir())

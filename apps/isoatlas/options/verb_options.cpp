@@ -107,7 +107,7 @@ void label_options(CLI::App& app, Arguments& arguments, Typed& typed) {
                    "Label the first N objects of the table, each at its best isovalue; with --zones: keep the first P percent")
         ->type_name("N|P%");
     add_selection(app, typed.selection, false);
-    add_output(app, arguments, ".seg.nrrd .nrrd .nii .nii.gz .tif .vdb .ome.zarr", true);
+    add_output(app, arguments, ".seg.nrrd .nrrd .nii .nii.gz .tif .vdb .h5 .ome.zarr", true);
 }
 
 void name_options(CLI::App& app, Arguments& /*arguments*/, Typed& typed) {
@@ -181,7 +181,7 @@ void compare_options(CLI::App& app, Arguments& arguments, Typed& typed) {
 }
 
 void convert_options(CLI::App& app, Arguments& arguments, Typed& /*typed*/) {
-    add_output(app, arguments, ".nrrd .npy .raw .mha .mrc .vdb .nii .nii.gz .vti .tif .ome.zarr", true);
+    add_output(app, arguments, ".nrrd .npy .raw .mha .mrc .vdb .h5 .nii .nii.gz .vti .tif .ome.zarr", true);
 }
 
 void phantom_options(CLI::App& app, Arguments& arguments, Typed& /*typed*/) {

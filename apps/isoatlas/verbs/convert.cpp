@@ -11,7 +11,7 @@
 namespace isoatlas::cli {
 
 int run_convert(const Arguments& arguments, Terminal& terminal) {
-    check_output(arguments, {".nrrd", ".npy", ".raw", ".mha", ".mrc", ".vdb", ".nii", ".nii.gz", ".vti", ".tif", ".zarr"});
+    check_output(arguments, {".nrrd", ".npy", ".raw", ".mha", ".mrc", ".vdb", ".h5", ".hdf5", ".nii", ".nii.gz", ".vti", ".tif", ".zarr"});
     Source source(arguments, terminal);
     const Volume& volume = source.volume();
     {

@@ -132,6 +132,22 @@ hid_t hdf5_type(std::string_view type) {
     return H5T_IEEE_F64LE;
 }
 
+/// Of several values; of one a scalar.
+Hdf5Handle line_of(std::size_t values) {
+    const hsize_t count = values;
+    return {count == 1 ? H5Screate(H5S_SCALAR) : H5Screate_simple(1, &count, nullptr), H5Sclose};
+}
+
+/// Of `size` bytes each.
+Hdf5Handle text_type(std::string_view text, std::size_t size) {
+    Hdf5Handle type(H5Tcopy(H5T_C_S1), H5Tclose);
+    H5Tset_size(type, size);
+    H5Tset_strpad(type, H5T_STR_NULLPAD);
+    const bool is_ascii = std::ranges::all_of(text, [](char c) { return static_cast<unsigned char>(c) < 0x80; });
+    if (!is_ascii) H5Tset_cset(type, H5T_CSET_UTF8);
+    return type;
+}
+
 hid_t create(Memory& memory, std::int64_t user_block) {
     H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
     const Hdf5Handle creation(H5Pcreate(H5P_FILE_CREATE), H5Pclose), access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
@@ -157,8 +173,9 @@ struct Hdf5Layout::Data {
     Memory memory;
     hid_t file = -1;
     hid_t chunked = -1;  ///< the array of the next chunks
-    hsize_t next_chunk = 0, chunk = 0;
-    std::vector<std::byte> blank;  ///< HDF5 requires some bytes
+    std::int64_t next_chunk = 0;
+    std::vector<std::int64_t> shape, chunk;  ///< of it
+    std::vector<std::byte> blank;            ///< HDF5 requires some bytes
     struct Rows {
         std::string name;
         hid_t set;
@@ -198,9 +215,10 @@ struct Hdf5Layout::Data {
             if (made < 0) no_memory("the group " + group);
         }
     }
-    void set_attribute(const std::string& group, const char* name, hid_t type, hid_t space, const void* value) const {
-        add_groups(group + "/");
-        const Hdf5Handle owner(H5Gopen2(file, group.c_str(), H5P_DEFAULT), H5Gclose);
+    void set_attribute(const std::string& object, const char* name, hid_t type, hid_t space, const void* value) {
+        end_chunks();
+        add_groups(object + "/");
+        const Hdf5Handle owner(H5Oopen(file, object.c_str(), H5P_DEFAULT), H5Oclose);
         const Hdf5Handle attribute(H5Acreate2(owner, name, type, space, H5P_DEFAULT, H5P_DEFAULT), H5Aclose);
         if (attribute < 0 || H5Awrite(attribute, type, value) < 0) no_memory(std::string("the attribute ") + name);
     }
@@ -238,15 +256,18 @@ std::int64_t Hdf5Layout::add(const std::string& name, const std::string& type, c
     return address == HADDR_UNDEF ? 0 : static_cast<std::int64_t>(address);
 }
 
-void Hdf5Layout::begin_chunks(const std::string& name, const std::string& type, std::int64_t count, std::int64_t chunk, int level) {
+void Hdf5Layout::begin_chunks(const std::string& name, const std::string& type, const std::vector<std::int64_t>& shape,
+                              const std::vector<std::int64_t>& chunk, int level) {
     const std::lock_guard lock(hdf5_mutex());
+    ISOATLAS_CHECK(shape.size() == chunk.size());
     data_->end_chunks();
-    const auto all = static_cast<hsize_t>(count);
-    data_->chunk = static_cast<hsize_t>(chunk), data_->next_chunk = 0;
-    const Hdf5Handle space(H5Screate_simple(1, &all, nullptr), H5Sclose);
+    data_->shape = shape, data_->chunk = chunk, data_->next_chunk = 0;
+    const std::vector<hsize_t> all(shape.begin(), shape.end()), part(chunk.begin(), chunk.end());
+    const auto rank = static_cast<int>(all.size());
+    const Hdf5Handle space(H5Screate_simple(rank, all.data(), nullptr), H5Sclose);
     const Hdf5Handle creation(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
     data_->add_groups(name);
-    H5Pset_chunk(creation, 1, &data_->chunk);
+    H5Pset_chunk(creation, rank, part.data());
     H5Pset_shuffle(creation);
     H5Pset_deflate(creation, static_cast<unsigned>(level));
     H5Pset_fill_time(creation, H5D_FILL_TIME_NEVER);
@@ -257,8 +278,14 @@ void Hdf5Layout::begin_chunks(const std::string& name, const std::string& type, 
 
 std::int64_t Hdf5Layout::add_chunk(std::int64_t bytes) {
     const std::lock_guard lock(hdf5_mutex());
-    const hsize_t first = std::exchange(data_->next_chunk, data_->next_chunk + data_->chunk);
-    return data_->allocate(data_->chunked, "an array", &first, static_cast<std::size_t>(bytes));
+    std::vector<hsize_t> first(data_->shape.size());
+    std::int64_t rest = data_->next_chunk++;
+    for (std::size_t d = first.size(); d-- > 0;) {
+        const std::int64_t chunk = data_->chunk[d], count = (data_->shape[d] + chunk - 1) / chunk;
+        first[d] = static_cast<hsize_t>(rest % count * chunk);
+        rest /= count;
+    }
+    return data_->allocate(data_->chunked, "an array", first.data(), static_cast<std::size_t>(bytes));
 }
 
 std::size_t Hdf5Layout::begin_rows(const std::string& name, const std::string& type, std::int64_t columns, std::int64_t chunk_rows) {
@@ -305,19 +332,24 @@ void Hdf5Layout::add_texts(const std::string& name, std::span<const std::string>
     if (set < 0 || H5Dwrite(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, bytes) < 0) data_->no_memory("the texts " + name);
 }
 
-void Hdf5Layout::set_attribute(const std::string& group, const char* name, std::span<const std::int64_t> numbers) {
+void Hdf5Layout::set_attribute(const std::string& object, const char* name, std::span<const std::int64_t> numbers) {
     const std::lock_guard lock(hdf5_mutex());
-    const hsize_t count = numbers.size();
-    const Hdf5Handle space(count == 1 ? H5Screate(H5S_SCALAR) : H5Screate_simple(1, &count, nullptr), H5Sclose);
-    data_->set_attribute(group, name, H5T_STD_I64LE, space, numbers.data());
+    data_->set_attribute(object, name, H5T_STD_I64LE, line_of(numbers.size()), numbers.data());
 }
 
-void Hdf5Layout::set_attribute(const std::string& group, const char* name, std::string_view text) {
+void Hdf5Layout::set_attribute(const std::string& object, const char* name, std::span<const double> numbers) {
     const std::lock_guard lock(hdf5_mutex());
-    const Hdf5Handle space(H5Screate(H5S_SCALAR), H5Sclose), type(H5Tcopy(H5T_C_S1), H5Tclose);
-    H5Tset_size(type, text.size());
-    H5Tset_strpad(type, H5T_STR_NULLPAD);
-    data_->set_attribute(group, name, type, space, text.data());
+    data_->set_attribute(object, name, H5T_IEEE_F64LE, line_of(numbers.size()), numbers.data());
+}
+
+void Hdf5Layout::set_attribute(const std::string& object, const char* name, std::string_view text) {
+    const std::lock_guard lock(hdf5_mutex());
+    data_->set_attribute(object, name, text_type(text, text.size()), line_of(1), text.data());
+}
+
+void Hdf5Layout::set_letters(const std::string& object, const char* name, std::string_view letters) {
+    const std::lock_guard lock(hdf5_mutex());
+    data_->set_attribute(object, name, text_type(letters, 1), line_of(letters.size()), letters.data());
 }
 
 std::int64_t Hdf5Layout::size() const { return static_cast<std::int64_t>(data_->memory.end_of_allocation); }

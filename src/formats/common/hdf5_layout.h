@@ -23,9 +23,10 @@ public:
 
     /// Allocates an array, with its groups. Returns the offset of its first byte; 0 when it has none.
     [[nodiscard]] std::int64_t add(const std::string& name, const std::string& type, const std::vector<std::int64_t>& shape);
-    /// The same for an array of one dimension that is compressed chunk by chunk: chunks follow by add_chunk(), before anything else.
-    /// level: of deflate, which its readers do not need to know.
-    void begin_chunks(const std::string& name, const std::string& type, std::int64_t count, std::int64_t chunk, int level);
+    /// The same for an array that is compressed chunk by chunk (shuffle, deflate): chunks follow by add_chunk(), the last dimension
+    /// fastest, before anything else. level: of deflate, which its readers do not need to know.
+    void begin_chunks(const std::string& name, const std::string& type, const std::vector<std::int64_t>& shape,
+                      const std::vector<std::int64_t>& chunk, int level);
     /// Allocates the next chunk. Returns its offset.
     [[nodiscard]] std::int64_t add_chunk(std::int64_t bytes);
 
@@ -37,9 +38,12 @@ public:
 
     /// A list of texts, of which HDF5 keeps the bytes too.
     void add_texts(const std::string& name, std::span<const std::string> texts);
-    /// A group, which may be there, and an attribute of it: one number, several, or an ASCII text.
-    void set_attribute(const std::string& group, const char* name, std::span<const std::int64_t> numbers);
-    void set_attribute(const std::string& group, const char* name, std::string_view text);
+    /// An array that is there, or a group, which may be there, and an attribute of it: one number, several, or a text of at least one byte.
+    void set_attribute(const std::string& object, const char* name, std::span<const std::int64_t> numbers);
+    void set_attribute(const std::string& object, const char* name, std::span<const double> numbers);
+    void set_attribute(const std::string& object, const char* name, std::string_view text);
+    /// A list of texts of one character each.
+    void set_letters(const std::string& object, const char* name, std::string_view letters);
 
     /// Bytes of the file so far; after finish() those of the whole file.
     [[nodiscard]] std::int64_t size() const;

@@ -70,6 +70,15 @@ std::string signal_of(const Hdf5File& file, const std::string& group) {
 
 std::string parent_of(const std::string& path) { return path.rfind('/') == 0 ? "/" : path.substr(0, path.rfind('/')); }
 
+/// The array of a file that isoatlas wrote, also when it is one sample thick; "": it is none.
+std::string own_array(const Hdf5File& file) {
+    if (file.has_attribute("/", "signal") || file.has_attribute("/", "default")) return {};
+    for (const char* path : {"/volume", "/labels"}) {
+        if (file.kind(path) == Hdf5File::Kind::array && file.has_attribute(path, "gridSpacing")) return path;
+    }
+    return {};
+}
+
 /// Names of the axes of an array of NXdata, for each of its dimensions; empty: not of NXdata.
 std::vector<std::string> nexus_axes(const Hdf5File& file, const Hdf5Array& array) {
     const std::string group = parent_of(array.path);
@@ -124,6 +133,13 @@ void set_array_attributes(const Hdf5File& file, const Hdf5Array& array, VolumeIn
     const std::vector<double> factor = file.numbers(array.path, "scale_factor"), offset = file.numbers(array.path, "add_offset");
     if (are_numbers(factor, 1) || are_numbers(offset, 1))
         set_calibration(info, are_numbers(factor, 1) ? factor[0] : 1, are_numbers(offset, 1) ? offset[0] : 0);
+    if (file.has_attribute(array.path, "gridSpacing") && array.dims.size() == static_cast<std::size_t>(info.extent.rank)) {
+        set_openpmd_geometry(file, array.path, array.path, info);
+        const bool has_unit = file.has_attribute(array.path, "gridUnit") || file.has_attribute(array.path, "gridUnitSI");
+        if (!has_unit) info.geometry.unit.clear();
+        if (const std::string space = file.text(array.path, "space"); !space.empty()) info.geometry.space = space;
+        return;
+    }
     const std::vector<double> micrometres = file.numbers(array.path, "element_size_um");  // of several programs of microscopy, z first
     if (!are_numbers(micrometres, 3) || info.extent.rank != 3) return;
     for (int a = 0; a < 3; ++a) set_axis_spacing(info, a, micrometres[static_cast<std::size_t>(2 - a)]);
@@ -217,6 +233,8 @@ std::unique_ptr<VolumeReader> open_hdf5_array(const Hdf5Request& request) {
         if (kind == Hdf5File::Kind::group) root = wanted, options.dataset.reset();
         if (const std::string signal = signal_of(file, root); kind == Hdf5File::Kind::group && !signal.empty())
             return open_chosen(request, signal, {});
+    } else if (const std::string own = own_array(file); !own.empty()) {
+        return open_chosen(request, own, {});
     } else if (const std::string group = default_data(file); !group.empty()) {
         const std::string signal = signal_of(file, group);
         if (!signal.empty() && is_candidate(file.array(signal), 4)) return open_chosen(request, signal, {});

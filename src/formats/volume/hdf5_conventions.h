@@ -36,6 +36,9 @@ struct Hdf5Walk {
 };
 [[nodiscard]] Hdf5Walk walk_hdf5(const Hdf5File& file, const std::string& root);
 
+/// Spacing, origin, directions and unit from the attributes of a mesh of openPMD, and from gridUnit, gridOrigin and gridDirection, which
+/// isoatlas writes beside them. component: what has the position within the cell.
+void set_openpmd_geometry(const Hdf5File& file, const std::string& mesh, const std::string& component, VolumeInfo& info);
 /// "512 x 512 x 100 uint16", x first.
 [[nodiscard]] std::string shape_of(const Hdf5Array& array);
 /// Sizes from the one of x on.

@@ -57,13 +57,36 @@ std::vector<ErrorChoice> openpmd_choices(const Hdf5File& file, const std::string
     return choices;
 }
 
-/// Places the axes by their labels: the first label is that of the slowest dimension, with dataOrder F of the fastest.
+/// What isoatlas writes for directions that openPMD has not. Numbers that are none are left out.
+void set_own_directions(const Hdf5File& file, const std::string& mesh, VolumeInfo& info) {
+    const std::vector<double> origin = file.numbers(mesh, "gridOrigin"), direction = file.numbers(mesh, "gridDirection");
+    if (!are_numbers(origin, 3) || !are_numbers(direction, 9)) return;
+    for (std::size_t a = 0; a < 3; ++a) {
+        constexpr double kRounding = 1e-6;
+        if (!(std::abs(std::hypot(direction[a], direction[3 + a], direction[6 + a]) - 1) < kRounding)) return;
+    }
+    for (std::size_t i = 0; i < 9; ++i) info.geometry.direction[i / 3][i % 3] = direction[i];
+    for (std::size_t a = 0; a < 3; ++a) info.geometry.origin[a] = origin[a];
+}
+
+/// options.dataset as a path beneath the meshes, if it is the whole path of an array.
+OpenOptions beneath_meshes(const OpenOptions& options, const std::string& meshes) {
+    OpenOptions own = options;
+    if (own.dataset && !own.dataset->starts_with('/')) own.dataset->insert(0, "/");
+    if (own.dataset && own.dataset->starts_with(meshes + "/")) own.dataset->erase(0, meshes.size());
+    return own;
+}
+
+}  // namespace
+
+// Places the axes by their labels: the first label is that of the slowest dimension, with dataOrder F of the fastest.
 void set_openpmd_geometry(const Hdf5File& file, const std::string& mesh, const std::string& component, VolumeInfo& info) {
     const auto rank = static_cast<std::size_t>(info.extent.rank);
     const std::vector<std::string> labels = file.texts(mesh, "axisLabels");
     const std::vector<double> spacing = file.numbers(mesh, "gridSpacing"), offset = file.numbers(mesh, "gridGlobalOffset"),
                               inside = file.numbers(component, "position"), units = file.numbers(mesh, "gridUnitSI");
-    const double unit = are_numbers(units, 1) && units[0] > 0 ? units[0] : 1;
+    const std::string name = file.text(mesh, "gridUnit");
+    const double unit = name.empty() && are_numbers(units, 1) && units[0] > 0 ? units[0] : 1;
     if (!are_numbers(spacing, rank)) {
         info.notes.emplace_back("the spacing of the mesh is not given: 1 was assumed");
         return;
@@ -92,19 +115,10 @@ void set_openpmd_geometry(const Hdf5File& file, const std::string& mesh, const s
         if (std::isfinite(begin * unit)) info.geometry.origin[static_cast<std::size_t>(row[a])] = begin * unit;
     }
     if (rank == 2) complete_normal(info.geometry);
+    set_own_directions(file, mesh, info);
     require_frame(info);
-    info.geometry.unit = "m";
+    info.geometry.unit = name.empty() ? "m" : name;
 }
-
-/// options.dataset as a path beneath the meshes, if it is the whole path of an array.
-OpenOptions beneath_meshes(const OpenOptions& options, const std::string& meshes) {
-    OpenOptions own = options;
-    if (own.dataset && !own.dataset->starts_with('/')) own.dataset->insert(0, "/");
-    if (own.dataset && own.dataset->starts_with(meshes + "/")) own.dataset->erase(0, meshes.size());
-    return own;
-}
-
-}  // namespace
 
 std::unique_ptr<VolumeReader> open_openpmd(const Hdf5Request& request) {
     const Hdf5File& file = *request.file;

@@ -6,6 +6,7 @@
 
 #include "formats/common/text.h"
 #include "formats/volume/vdb.h"
+#include "formats/volume/write_hdf5.h"
 #include "formats/volume/write_zarr.h"
 
 namespace isoatlas {
@@ -26,7 +27,7 @@ SampleFeed narrowed(std::span<const std::uint32_t> labels) {
     };
 }
 
-constexpr const char* kEnds[] = {".nrrd", ".nii", ".nii.gz", ".tif", ".tiff", ".vdb", ".zarr"};
+constexpr const char* kEnds[] = {".nrrd", ".nii", ".nii.gz", ".tif", ".tiff", ".vdb", ".h5", ".hdf5", ".zarr"};
 
 }  // namespace
 
@@ -51,7 +52,7 @@ void check_labels(const std::string& path, const VolumeInfo& info, std::span<con
     if (std::ranges::any_of(kEnds, [&](const char* end) { return ends_with_ignoring_case(path, end); })) return;
     throw Error(ErrorKind::usage, {.file = path,
                                    .what = "the name does not say in which format to write labels",
-                                   .expected = "a name that ends in .nrrd, .nii, .nii.gz, .tif, .vdb or .zarr",
+                                   .expected = "a name that ends in .nrrd, .nii, .nii.gz, .tif, .vdb, .h5 or .zarr",
                                    .next = "change the extension of the output file"});
 }
 
@@ -62,6 +63,7 @@ void write_label_file(Sink& sink, const VolumeInfo& header, const SampleFeed& fe
     if (ends(".nii")) return write_nifti(sink, header, feed, Packing::raw);
     if (ends(".nii.gz")) return write_nifti(sink, header, feed, Packing::gzip);
     if (ends(".vdb")) return write_vdb_labels(sink, header, feed);
+    if (ends(".h5") || ends(".hdf5")) return write_hdf5_labels(sink, header, feed, pairs);
     write_tiff(sink, header, feed, pairs);
 }
 

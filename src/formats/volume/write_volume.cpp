@@ -3,6 +3,7 @@
 #include "formats/common/text.h"
 #include "formats/common/volume_file.h"
 #include "formats/volume/vdb.h"
+#include "formats/volume/write_hdf5.h"
 #include "formats/volume/write_zarr.h"
 #include "isoatlas/output.h"
 #include "isoatlas/polarity.h"
@@ -25,6 +26,8 @@ constexpr WrittenFormat kWrittenFormats[] = {
     {".vti", write_vti},
     {".mrc", write_mrc},
     {".vdb", write_vdb},
+    {".h5", write_hdf5},
+    {".hdf5", write_hdf5},
     {".nii", [](Sink& sink, const VolumeInfo& info, const SampleFeed& samples) { write_nifti(sink, info, samples, Packing::raw); }},
     {".nii.gz", [](Sink& sink, const VolumeInfo& info, const SampleFeed& samples) { write_nifti(sink, info, samples, Packing::gzip); }},
     {".tif", [](Sink& sink, const VolumeInfo& info, const SampleFeed& samples) { write_tiff(sink, info, samples); }},
@@ -48,7 +51,7 @@ Writer checked_writer(const std::string& path, const Volume& volume) {
     throw Error(ErrorKind::usage,
                 {.file = path,
                  .what = "the name does not say in which format to write the volume",
-                 .expected = "a name that ends in .nrrd, .nii, .nii.gz, .mha, .mrc, .vdb, .vti, .npy, .tif, .raw or .zarr",
+                 .expected = "a name that ends in .nrrd, .nii, .nii.gz, .mha, .mrc, .vdb, .h5, .vti, .npy, .tif, .raw or .zarr",
                  .next = "change the extension of the output file"});
 }
 
