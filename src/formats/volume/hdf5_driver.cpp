@@ -18,6 +18,7 @@ struct OpenHdf5File {
     H5FD_t base{};
     Hdf5Access* access = nullptr;
     std::string name{};
+    bool is_listed = false;  ///< in access->names: HDF5 numbers it after open()
     std::unique_ptr<File> file{};
     haddr_t end_of_allocation = 0;
 };
@@ -84,12 +85,13 @@ struct ReadingDriver {
         return 0;
     }
     static herr_t read(H5FD_t* file, H5FD_mem_t kind, hid_t, haddr_t offset, std::size_t size, void* out) {
-        const OpenHdf5File& opened = of(file);
+        OpenHdf5File& opened = of(file);
         if (opened.access->noted != nullptr && kind == H5FD_MEM_DRAW) {
             *opened.access->noted = {opened.file.get(), offset, size};
             return 0;
         }
         try {
+            if (!std::exchange(opened.is_listed, true)) opened.access->names.insert_or_assign(opened.base.fileno, opened.name);
             if (offset <= static_cast<haddr_t>(opened.file->size())) {
                 read_fully(*opened.file, opened.name, static_cast<std::int64_t>(offset), {static_cast<std::byte*>(out), size});
                 return 0;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <string>
 
@@ -24,7 +25,8 @@ struct Hdf5Access {
     std::optional<Error> failure{};  ///< a file that may not be opened, is cut off, or lies on a disk that fails
     std::optional<Error> missing{};  ///< a file that cannot be opened: HDF5 looks for it in several folders
     bool is_main_open = false;
-    Hdf5Range* noted = nullptr;  ///< samples are not read: where they lie is noted
+    std::map<unsigned long, std::string> names{};  ///< of all files opened so far, by the number that HDF5 gives them
+    Hdf5Range* noted = nullptr;                    ///< samples are not read: where they lie is noted
     void forget() { failure.reset(), missing.reset(); }
 };
 

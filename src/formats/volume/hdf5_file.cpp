@@ -7,7 +7,9 @@
 #include <new>
 #include <span>
 
+#include "formats/common/file_access.h"
 #include "formats/common/text.h"
+#include "formats/volume/hdf5_check.h"
 #include "formats/volume/hdf5_heap.h"
 #include "formats/volume/hdf5_object.h"
 #include "formats/volume/hdf5_storage.h"
@@ -42,8 +44,9 @@ struct OpenAttribute {
     hssize_t count = 0;
 };
 
-OpenAttribute open_attribute(const Hdf5File::Data& data, const std::string& object, const std::string& name) {
+OpenAttribute open_attribute(Hdf5File::Data& data, const std::string& object, const std::string& name) {
     OpenAttribute open;
+    if (!data.damage(object).empty()) return open;
     if (H5Aexists_by_name(data.file, object.c_str(), name.c_str(), data.links) <= 0) return open;
     open.attribute = {H5Aopen_by_name(data.file, object.c_str(), name.c_str(), H5P_DEFAULT, data.links), H5Aclose};
     if (open.attribute < 0) return open;
@@ -129,12 +132,33 @@ void Hdf5File::Data::fail(const std::string& where, const std::string& what) {
                                    .next = "the file is damaged or cut off: get it again"});
 }
 
+std::string Hdf5File::Data::damage(const std::string& object) {
+    Hdf5Info info{};
+    if (H5Oget_info_by_name2(file, object.c_str(), &info, H5O_INFO_BASIC, links) < 0) return {};
+    return damage_at(info.fileno, info.addr);
+}
+
+std::string Hdf5File::Data::damage_at(unsigned long number, haddr_t address) {
+    const auto name = access.names.find(number);
+    if (name == access.names.end() || sound.contains({number, address})) return {};
+    std::string damage = "its file cannot be read again";
+    try {
+        const std::unique_ptr<File> opened = open_file(name->second);
+        if (const std::optional<Hdf5Frame> frame = hdf5_frame_of(*opened)) damage = damage_of_hdf5_header(*frame, address);
+    } catch (const Error& error) {
+        access.failure = error;
+    }
+    if (damage.empty()) sound.emplace(number, address);
+    return damage;
+}
+
 Hdf5Handle Hdf5File::Data::open_array(const std::string& path, hid_t properties) {
     access.forget();
     // The path may lead through links, which H5Dopen2 follows by the properties of the file alone.
     Hdf5Info info{};
     if (H5Oget_info_by_name2(file, path.c_str(), &info, H5O_INFO_BASIC, links) < 0) fail(path, "cannot be found");
     if (info.type != H5O_TYPE_DATASET) fail(path, "is not an array");
+    if (const std::string damage = damage_at(info.fileno, info.addr); !damage.empty()) fail(path, damage);
     Hdf5Handle set(H5Dopen2(file, path.c_str(), properties), H5Dclose);
     if (set < 0) fail(path, "cannot be opened");
     return set;
@@ -179,8 +203,11 @@ std::string Hdf5File::identity(const std::string& object) const {
 std::vector<std::string> Hdf5File::names(const std::string& group) const {
     const std::lock_guard lock(hdf5_mutex());
     std::vector<std::string> names;
+    Hdf5Info info{};
+    if (H5Oget_info_by_name2(data_->file, group.c_str(), &info, H5O_INFO_BASIC, data_->links) < 0) return names;
+    if (info.type != H5O_TYPE_GROUP) return names;
     const Hdf5Handle opened(H5Oopen(data_->file, group.c_str(), data_->links), H5Oclose);
-    if (opened < 0 || H5Iget_type(opened) != H5I_GROUP) return names;
+    if (opened < 0) return names;
     const auto add = [](hid_t, const char* name, const auto*, void* out) -> herr_t {
         auto& list = *static_cast<std::vector<std::string>*>(out);
         if (list.size() >= kMostNames) return 1;
@@ -254,7 +281,8 @@ std::vector<std::vector<std::string>> Hdf5File::references(const std::string& ob
     const std::lock_guard lock(hdf5_mutex());
     std::vector<std::vector<std::string>> lists;
     const OpenAttribute open = open_attribute(*data_, object, name);
-    if (open.count == 0 || H5Tget_class(open.type) != H5T_VLEN) return lists;
+    Hdf5Info owner{};
+    if (open.count == 0 || H5Tget_class(open.type) != H5T_VLEN || H5Oget_info2(open.attribute, &owner, H5O_INFO_BASIC) < 0) return lists;
     const Hdf5Handle element(H5Tget_super(open.type), H5Tclose);
     if (H5Tequal(element, H5T_STD_REF_OBJ) <= 0) return lists;
     for (const std::vector<std::byte>& list : read_hdf5_lists(open.attribute, sizeof(hobj_ref_t))) {
@@ -262,7 +290,8 @@ std::vector<std::vector<std::string>> Hdf5File::references(const std::string& ob
         for (std::size_t i = 0; i < std::min<std::size_t>(list.size() / sizeof(hobj_ref_t), 64); ++i) {
             hobj_ref_t reference{};
             std::memcpy(&reference, list.data() + i * sizeof reference, sizeof reference);
-            const Hdf5Handle target(H5Rdereference2(open.attribute, H5P_DEFAULT, H5R_OBJECT, &reference), H5Oclose);
+            const bool is_sound = data_->damage_at(owner.fileno, reference).empty();
+            const Hdf5Handle target(is_sound ? H5Rdereference2(open.attribute, H5P_DEFAULT, H5R_OBJECT, &reference) : -1, H5Oclose);
             Hdf5Info info{};
             const bool is_there = target >= 0 && H5Oget_info2(target, &info, H5O_INFO_BASIC) >= 0;
             identities.push_back(is_there ? std::to_string(info.fileno) + ":" + std::to_string(info.addr) : "");
@@ -274,6 +303,7 @@ std::vector<std::vector<std::string>> Hdf5File::references(const std::string& ob
 
 bool Hdf5File::has_attribute(const std::string& object, const std::string& attribute) const {
     const std::lock_guard lock(hdf5_mutex());
+    if (!data_->damage(object).empty()) return false;
     return H5Aexists_by_name(data_->file, object.c_str(), attribute.c_str(), data_->links) > 0;
 }
 

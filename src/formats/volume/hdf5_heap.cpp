@@ -1,11 +1,11 @@
 #include "formats/volume/hdf5_heap.h"
 
 #include <algorithm>
-#include <cstring>
 #include <map>
 #include <span>
 
 #include "formats/volume/hdf5_driver.h"
+#include "formats/volume/hdf5_frame.h"
 
 namespace isoatlas {
 namespace {
@@ -17,56 +17,9 @@ herr_t keep_places(hid_t from, hid_t to, H5T_cdata_t* conversion, std::size_t, s
     return conversion->command != H5T_CONV_CONV || H5Tget_size(from) == H5Tget_size(to) ? 0 : -1;
 }
 
-/// Of a file: where its addresses begin, and their bytes.
-struct Frame {
-    File* file = nullptr;
-    std::uint64_t base = 0;
-    std::size_t address_bytes = 0, length_bytes = 0;
-};
-
-std::uint64_t number_at(std::span<const std::byte> bytes, std::size_t at, std::size_t count) {
-    std::uint64_t value = 0;
-    for (std::size_t i = count; i-- > 0;) value = value << 8 | std::to_integer<std::uint64_t>(bytes[at + i]);
-    return value;
-}
-
-bool fill_from(const Frame& frame, std::uint64_t offset, std::span<std::byte> out) {
-    for (std::size_t done = 0; done < out.size();) {
-        const std::ptrdiff_t got = frame.file->read_at(static_cast<std::int64_t>(offset + done), out.subspan(done));
-        if (got <= 0) return false;
-        done += static_cast<std::size_t>(got);
-    }
-    return true;
-}
-
-/// The objects of a heap, behind one another: number, references, size, bytes.
-std::vector<std::byte> read_collection(const Frame& frame, std::uint64_t address) {
-    constexpr std::size_t kMostBytes = std::size_t{64} << 20, kSizeAt = 8;
-    const auto all = static_cast<std::uint64_t>(frame.file->size());
-    std::vector<std::byte> bytes(kSizeAt + frame.length_bytes);
-    if (address > all || frame.base > all - address) return {};
-    const std::uint64_t offset = frame.base + address, rest = all - offset;
-    if (rest < bytes.size() || !fill_from(frame, offset, bytes) || std::memcmp(bytes.data(), "GCOL\1", 5) != 0) return {};
-    const std::uint64_t size = number_at(bytes, kSizeAt, frame.length_bytes);
-    if (size < bytes.size() || size > rest || size > kMostBytes) return {};
-    bytes.resize(static_cast<std::size_t>(size));
-    return fill_from(frame, offset, bytes) ? bytes : std::vector<std::byte>{};
-}
-
-std::span<const std::byte> object_of(const Frame& frame, std::span<const std::byte> heap, std::uint64_t number) {
-    const std::size_t header = 8 + frame.length_bytes;
-    for (std::size_t at = header; at + header <= heap.size();) {
-        const std::uint64_t found = number_at(heap, at, 2), size = number_at(heap, at + 8, frame.length_bytes);
-        at += header;
-        if (found == 0 || size > heap.size() - at) break;  // 0: free to the end
-        if (found == number) return heap.subspan(at, static_cast<std::size_t>(size));
-        at += std::min(heap.size() - at, static_cast<std::size_t>((size + 7) / 8 * 8));
-    }
-    return {};
-}
-
-Frame frame_of(hid_t attribute) {
-    Frame frame;
+/// file: nullptr where HDF5 does not say it.
+Hdf5Frame frame_of(hid_t attribute) {
+    Hdf5Frame frame;
     const Hdf5Handle file(H5Iget_file_id(attribute), H5Fclose), creation(H5Fget_create_plist(file), H5Pclose);
     hsize_t base = 0;
     if (file < 0 || creation < 0 || H5Pget_userblock(creation, &base) < 0 ||
@@ -86,7 +39,7 @@ std::vector<std::vector<std::byte>> read_hdf5_lists(hid_t attribute, std::size_t
         return H5Tregister(H5T_PERS_SOFT, "isoatlas lists", list, place, keep_places) >= 0;
     }();
     std::vector<std::vector<std::byte>> lists;
-    const Frame frame = frame_of(attribute);
+    const Hdf5Frame frame = frame_of(attribute);
     const Hdf5Handle space(H5Aget_space(attribute), H5Sclose);
     const hssize_t count = H5Sget_simple_extent_npoints(space);
     const std::size_t size = 8 + frame.address_bytes;
@@ -97,13 +50,13 @@ std::vector<std::vector<std::byte>> read_hdf5_lists(hid_t attribute, std::size_t
     if (H5Aread(attribute, place, places.data()) < 0) return lists;
     std::map<std::uint64_t, std::vector<std::byte>> heaps;
     for (std::size_t at = 0; at < places.size(); at += size) {
-        const std::uint64_t length = number_at(places, at, 4) * element, address = number_at(places, at + 4, frame.address_bytes),
-                            number = number_at(places, at + 4 + frame.address_bytes, 4);
+        const std::uint64_t length = hdf5_number(places, at, 4) * element, address = hdf5_number(places, at + 4, frame.address_bytes),
+                            number = hdf5_number(places, at + 4 + frame.address_bytes, 4);
         std::span<const std::byte> object;
         if (length > 0 && number > 0) {
             const auto [heap, is_new] = heaps.try_emplace(address);
-            if (is_new) heap->second = read_collection(frame, address);
-            object = object_of(frame, heap->second, number);
+            if (is_new) heap->second = read_hdf5_collection(frame, address);
+            object = hdf5_object(frame, heap->second, number);
         }
         object = object.size() < length ? std::span<const std::byte>{} : object.first(static_cast<std::size_t>(length));
         lists.emplace_back(object.begin(), object.end());

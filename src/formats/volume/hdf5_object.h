@@ -1,7 +1,9 @@
 // Inside of Hdf5File, for those who call HDF5. The caller of every function holds hdf5_mutex().
 #pragma once
 
+#include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "formats/volume/hdf5_driver.h"
@@ -13,6 +15,11 @@ struct Hdf5File::Data {
     Hdf5Access access;
     Hdf5Handle file, links;  ///< links: properties with which they are followed
 
+    std::set<std::pair<unsigned long, haddr_t>> sound{};  ///< objects whose headers were checked, by file and address
+
+    /// What is damaged in the header of an object, so that HDF5 must not open it or its attributes; "": nothing, or it is not there.
+    [[nodiscard]] std::string damage(const std::string& object);
+    [[nodiscard]] std::string damage_at(unsigned long number, haddr_t address);
     /// The error of the last call: that of a file, else what HDF5 says.
     [[noreturn]] void fail(const std::string& where, const std::string& what);
     /// Throws Error{input}, also when it is no array.

@@ -1,0 +1,188 @@
+// Headers of objects: version 1 and 2, with their continuations and the named types that they refer to.
+#include "formats/volume/hdf5_check.h"
+
+#include <algorithm>
+#include <cstring>
+#include <deque>
+#include <set>
+#include <string_view>
+#include <vector>
+
+#include "formats/volume/hdf5_cursor.h"
+
+namespace isoatlas {
+namespace {
+
+constexpr std::uint64_t kMaxChunkBytes = std::uint64_t{16} << 20, kMaxBytes = std::uint64_t{128} << 20;
+constexpr std::size_t kMaxHeaders = 1000, kMaxChunks = 100'000;
+constexpr unsigned kSharedFlag = 2;
+
+bool begins_with(std::span<const std::byte> bytes, std::string_view text) {
+    return bytes.size() >= text.size() && std::memcmp(bytes.data(), text.data(), text.size()) == 0;
+}
+
+/// Walks through a header and what it refers to. Throws nothing; the first damage ends it.
+class HeaderWalk {
+public:
+    explicit HeaderWalk(const Hdf5Frame& frame) : frame_(frame) {}
+
+    std::string run(std::uint64_t address) {
+        add_header(address);
+        while (!headers_.empty() && damage_.empty()) {
+            const std::uint64_t next = headers_.front();
+            headers_.pop_front();
+            walk_header(next);
+        }
+        return damage_;
+    }
+
+private:
+    struct Chunk {
+        std::uint64_t address, bytes;
+        bool is_continuation;
+    };
+
+    void damaged(const char* what) {
+        if (damage_.empty()) damage_ = what;
+    }
+    void add_header(std::uint64_t address) {
+        if (seen_.size() < kMaxHeaders && seen_.insert(address).second) headers_.push_back(address);
+    }
+
+    /// The first bytes of a header, up to its messages.
+    bool begin_header(std::uint64_t address, Chunk& first) {
+        std::vector<std::byte> bytes(static_cast<std::size_t>(std::min<std::uint64_t>(frame_.rest(address), 64)));
+        if (bytes.size() < 16 || !frame_.read(address, bytes)) return false;
+        is_new_ = begins_with(bytes, "OHDR\2");
+        if (!is_new_) {
+            constexpr std::uint64_t kPrefix = 16;
+            first = {address + kPrefix, hdf5_number(bytes, 8, 4), false};
+            return hdf5_number(bytes, 0, 1) == 1;
+        }
+        const std::uint64_t flags = hdf5_number(bytes, 5, 1);
+        const std::size_t at = 6 + ((flags & 0x20) != 0 ? 16 : 0) + ((flags & 0x10) != 0 ? 4 : 0), width = std::size_t{1} << (flags & 3);
+        has_order_ = (flags & 4) != 0;
+        if (at + width > bytes.size()) return false;
+        first = {address + at + width, hdf5_number(bytes, at, width), false};
+        return true;
+    }
+
+    void walk_header(std::uint64_t address) {
+        Chunk first{};
+        if (!begin_header(address, first)) return damaged("the header of the object is not one");
+        chunks_.assign(1, first);
+        for (std::size_t i = 0; i < chunks_.size() && damage_.empty(); ++i) walk_chunk(chunks_[i]);
+    }
+
+    void walk_chunk(Chunk chunk) {
+        if (chunk.bytes > frame_.rest(chunk.address) || chunk.bytes > kMaxChunkBytes) return damaged("its header does not lie in the file");
+        bytes_ += chunk.bytes;
+        if (bytes_ > kMaxBytes || chunks_.size() > kMaxChunks) return damaged("its header has no end");
+        std::vector<std::byte> bytes(static_cast<std::size_t>(chunk.bytes));
+        if (!frame_.read(chunk.address, bytes)) return damaged("its header cannot be read");
+        std::span<const std::byte> messages = bytes;
+        if (is_new_ && chunk.is_continuation) {
+            if (bytes.size() < 8 || !begins_with(bytes, "OCHK")) return damaged("its header goes on where there is none");
+            messages = messages.subspan(4, bytes.size() - 8);  // a checksum at the end
+        }
+        walk_messages(messages);
+    }
+
+    void walk_messages(std::span<const std::byte> bytes) {
+        const std::size_t prefix = !is_new_ ? 8 : has_order_ ? 6 : 4;
+        for (std::size_t at = 0; bytes.size() - at >= prefix && damage_.empty();) {
+            const std::size_t kind_bytes = is_new_ ? 1 : 2;
+            const std::uint64_t kind = hdf5_number(bytes, at, kind_bytes), size = hdf5_number(bytes, at + kind_bytes, 2),
+                                flags = hdf5_number(bytes, at + kind_bytes + 2, 1);
+            at += prefix;
+            if (size > bytes.size() - at) return damaged("a message of its header does not lie in it");
+            check_message(kind, (flags & kSharedFlag) != 0, bytes.subspan(at, static_cast<std::size_t>(size)));
+            at += static_cast<std::size_t>(size);
+        }
+    }
+
+    void check_message(std::uint64_t kind, bool is_shared, std::span<const std::byte> bytes) {
+        constexpr std::uint64_t kSpace = 1, kType = 3, kLayout = 8, kAttribute = 12, kContinuation = 16;
+        if (kind == kType) return check_type(bytes, is_shared);
+        if (is_shared) return;
+        if (kind == kSpace && !is_sound_space(bytes)) return damaged("its dimensions do not fit in its header");
+        if (kind == kLayout) return check_layout(bytes);
+        if (kind == kAttribute) return check_attribute(bytes);
+        if (kind != kContinuation) return;
+        Hdf5Cursor cursor{bytes};
+        const std::uint64_t address = cursor.number(frame_.address_bytes), size = cursor.number(frame_.length_bytes);
+        if (!cursor.is_sound) return damaged("its header goes on nowhere");
+        chunks_.push_back({address, size, true});
+    }
+
+    void check_type(std::span<const std::byte> bytes, bool is_shared) {
+        if (!is_shared) {
+            if (!is_sound_hdf5_type(bytes)) damaged("its type does not fit in its header");
+            return;
+        }
+        Hdf5Cursor cursor{bytes};
+        const std::uint64_t version = cursor.number(1), kind = cursor.number(1);
+        if (version >= 3 && kind != 2) return;  // in a heap of the file
+        if (version == 1) cursor.skip(6);
+        const std::uint64_t address = cursor.number(frame_.address_bytes);
+        if (!cursor.is_sound) return damaged("its type is nowhere");
+        add_header(address);
+    }
+
+    [[nodiscard]] bool is_sound_space(std::span<const std::byte> bytes) const {
+        Hdf5Cursor cursor{bytes};
+        const std::uint64_t version = cursor.number(1), rank = cursor.number(1), flags = cursor.number(1);
+        cursor.skip(version == 1 ? 5 : 1);
+        cursor.skip(rank * frame_.length_bytes * ((flags & 1) != 0 ? 2 : 1));
+        return cursor.is_sound && rank <= 32;
+    }
+
+    void check_attribute(std::span<const std::byte> bytes) {
+        Hdf5Cursor cursor{bytes};
+        const std::uint64_t version = cursor.number(1), flags = cursor.number(1), name = cursor.number(2), type = cursor.number(2),
+                            space = cursor.number(2);
+        if (version == 3) cursor.skip(1);
+        const auto padded = [&](std::uint64_t size) { return version == 1 ? (size + 7) / 8 * 8 : size; };
+        const std::size_t name_at = cursor.at;
+        cursor.skip(padded(name));
+        const std::size_t type_at = cursor.at;
+        cursor.skip(padded(type));
+        const std::size_t space_at = cursor.at;
+        cursor.skip(padded(space));
+        if (!cursor.is_sound) return damaged("an attribute does not fit in its header");
+        const auto part = [&](std::size_t at, std::uint64_t size) { return bytes.subspan(at, static_cast<std::size_t>(size)); };
+        const auto text = part(name_at, name);
+        const bool is_named = std::ranges::find(text, std::byte{0}) != text.end();
+        const bool has_shared_space = version > 1 && (flags & 2) != 0;
+        if (!is_named || (!has_shared_space && !is_sound_space(part(space_at, space)))) return damaged("an attribute is damaged");
+        check_type(part(type_at, type), version > 1 && (flags & 1) != 0);
+    }
+
+    void check_layout(std::span<const std::byte> bytes) {
+        constexpr std::uint64_t kVirtual = 3;
+        Hdf5Cursor cursor{bytes};
+        const std::uint64_t version = cursor.number(1), kind = cursor.number(1);
+        if (version < 4 || kind != kVirtual) return;
+        const std::uint64_t address = cursor.number(frame_.address_bytes), number = cursor.number(4);
+        const std::uint64_t none = frame_.address_bytes == 8 ? ~std::uint64_t{0} : (std::uint64_t{1} << 8 * frame_.address_bytes) - 1;
+        if (cursor.is_sound && address == none) return;
+        const std::vector<std::byte> collection = cursor.is_sound ? read_hdf5_collection(frame_, address) : std::vector<std::byte>{};
+        if (collection.empty() || !is_sound_hdf5_collection(frame_, collection) || number == 0 ||
+            !is_sound_hdf5_source_list(frame_, hdf5_object(frame_, collection, number)))
+            damaged("the list of its sources is damaged");
+    }
+
+    const Hdf5Frame& frame_;
+    std::deque<std::uint64_t> headers_;
+    std::set<std::uint64_t> seen_;
+    std::vector<Chunk> chunks_;  ///< of the header
+    std::string damage_;
+    std::uint64_t bytes_ = 0;
+    bool is_new_ = false, has_order_ = false;
+};
+
+}  // namespace
+
+std::string damage_of_hdf5_header(const Hdf5Frame& frame, std::uint64_t address) { return HeaderWalk(frame).run(address); }
+
+}  // namespace isoatlas
