@@ -82,6 +82,13 @@ test|clang-tidy-19|lint
 test|mold|links the many test programs
 bench|python3-vtk9|Flying Edges, the yardstick of surface extraction
 bench|python3-numpy|reads the volumes for VTK
+bench|python3-h5py|reads HDF5 for the table of files
+bench|python3-zarr|reads Zarr for the table of files
+bench|python3-netcdf4|reads NetCDF for the table of files
+bench|python3-tifffile|reads TIFF for the table of files
+bench|python3-mrcfile|reads MRC for the table of files
+bench|python3-nibabel|reads NIfTI for the table of files
+bench|python3-pydicom|reads DICOM for the table of files
 bench|python3-skimage|Marching Cubes of Lewiner and Lorensen, beside the methods of the literature
 bench|python3-scipy|components of their surfaces
 bench|xvfb|a display for VTK's ray caster, the yardstick of volume rendering

@@ -20,7 +20,7 @@ MEASURED = {
     "engine": ENGINE, "phases": ENGINE, "scale-analysis": ENGINE, "extract": SURFACES, "scale-extract": SURFACES,
     "store-builds": BUILDS, "store-phases": BUILDS, "store-surfaces": STORES, "store-objects": STORES, "scale-stores": BUILDS,
     "render": PICTURES, "scale-render": PICTURES, "pages": PAGES, "scale-pages": PAGES,
-    "python-surfaces": ["python"], "python-facts": ["python"],
+    "formats": ["src/formats/volume", "src/formats/zarr", "src/formats/common"], "python-surfaces": ["python"], "python-facts": ["python"],
     "methods": ["src/methods/search", "src/methods/disk"],
 }
 ROWS = {  # of the tables that list volumes
