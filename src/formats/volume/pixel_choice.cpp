@@ -23,7 +23,7 @@ int choices_in(const PixelKind& kind) {
 
 std::string name_of_channel(const std::vector<std::string>& planes, std::size_t plane, int choice, const PixelKind& kind) {
     if (choices_in(kind) == 1) return planes[plane];
-    const std::string colour = kind.is_rgb ? kColourChannels[static_cast<std::size_t>(choice)] : "";
+    std::string colour = kind.is_rgb ? kColourChannels[static_cast<std::size_t>(choice)] : "";
     if (planes.size() == 1) return colour;
     const std::string name = planes[plane].empty() ? std::to_string(plane) : planes[plane];
     return name + " " + (colour.empty() ? std::to_string(choice) : colour);
