@@ -1,6 +1,7 @@
 """HDF5 against h5py: what it writes in any type, chunk shape and filter is read; conventions place the samples; what lies is refused."""
 import pathlib
 import subprocess
+import sys
 
 import numpy as np
 import pytest
@@ -162,6 +163,49 @@ def test_damage_has_one_message(tmp_path, run_cli):
             crashes.append((i, done.returncode, done.stderr[-200:]))
         assert "HDF5-DIAG" not in done.stderr
     assert not crashes, crashes
+
+
+DAMAGE = """
+import sys, isoatlas
+content = open(sys.argv[1], "rb").read()
+for at in range(8, len(content)):
+    if not any(content[at - 4:at + 5]):
+        continue
+    for value in {0, 255, content[at] ^ 1} - {content[at]}:
+        with open(sys.argv[2], "wb") as file:
+            file.write(content[:at] + bytes([value]) + content[at + 1:])
+        try:
+            isoatlas.open(sys.argv[2] + ":/v").volume
+        except isoatlas.InternalError:
+            raise
+        except (isoatlas.Error, ValueError):
+            pass
+"""
+
+
+@pytest.mark.parametrize("kind", ["enumeration", "attributes", "virtual"])
+def test_headers_that_lie_do_not_end_the_program(kind, tmp_path):
+    """Every byte of small files whose headers have no checksums."""
+    array = (np.arange(24, dtype="u1") % 2).reshape(2, 3, 4)
+    type = h5py.enum_dtype({"none": 0, "some": 1}, "u1")
+    with h5py.File(tmp_path / "v.h5", "w", libver="earliest") as file:
+        if kind == "virtual":
+            file["p"] = array[0]
+            layout = h5py.VirtualLayout((2, 3, 4), "u1")
+            for i in range(2):
+                layout[i] = h5py.VirtualSource(".", "p", shape=(3, 4))
+            file.create_virtual_dataset("v", layout)
+        else:
+            file.create_dataset("v", data=array.astype(type) if kind == "enumeration" else array, dtype=type if kind == "enumeration" else "u1")
+        if kind == "attributes":
+            file["v"].attrs.create("units", "K")
+            file["v"].attrs.create("flags", [0, 1], dtype=type)
+            file["v"].attrs["pairs"] = np.zeros(2, dtype=[("a", "f4"), ("b", "i2", (3,))])
+    content = (tmp_path / "v.h5").read_bytes().rstrip(b"\0")
+    assert len(content) < 8000
+    done = subprocess.run([sys.executable, "-B", "-c", DAMAGE, tmp_path / "v.h5", tmp_path / "d.h5"], capture_output=True, text=True,
+                          timeout=600)
+    assert done.returncode == 0, done.stderr[-2000:]
 
 
 def test_shared_files_say_what_they_are():

@@ -33,6 +33,7 @@ public:
             headers_.pop_front();
             walk_header(next);
         }
+        if (needs_table_ && !has_table_) damaged("a part of its header lies in a heap that the file has not");
         return damage_;
     }
 
@@ -69,6 +70,7 @@ private:
 
     void walk_header(std::uint64_t address) {
         Chunk first{};
+        is_extension_ = frame_.extension == address;
         if (!begin_header(address, first)) return damaged("the header of the object is not one");
         chunks_.assign(1, first);
         for (std::size_t i = 0; i < chunks_.size() && damage_.empty(); ++i) walk_chunk(chunks_[i]);
@@ -102,9 +104,10 @@ private:
     }
 
     void check_message(std::uint64_t kind, bool is_shared, std::span<const std::byte> bytes) {
-        constexpr std::uint64_t kSpace = 1, kType = 3, kLayout = 8, kAttribute = 12, kContinuation = 16;
-        if (kind == kType) return check_type(bytes, is_shared);
-        if (is_shared) return;
+        constexpr std::uint64_t kSpace = 1, kType = 3, kLayout = 8, kAttribute = 12, kHeapTable = 15, kContinuation = 16;
+        if (is_shared) return check_shared(bytes);
+        if (kind == kHeapTable && is_extension_) has_table_ = true;
+        if (kind == kType) return check_type(bytes);
         if (kind == kSpace && !is_sound_space(bytes)) return damaged("its dimensions do not fit in its header");
         if (kind == kLayout) return check_layout(bytes);
         if (kind == kAttribute) return check_attribute(bytes);
@@ -115,17 +118,22 @@ private:
         chunks_.push_back({address, size, true});
     }
 
-    void check_type(std::span<const std::byte> bytes, bool is_shared) {
-        if (!is_shared) {
-            if (!is_sound_hdf5_type(bytes)) damaged("its type does not fit in its header");
-            return;
-        }
+    void check_type(std::span<const std::byte> bytes) {
+        if (!is_sound_hdf5_type(bytes)) damaged("a type does not fit in its header");
+    }
+
+    /// A message that lies in the header of another object, or in a heap of the file.
+    void check_shared(std::span<const std::byte> bytes) {
         Hdf5Cursor cursor{bytes};
         const std::uint64_t version = cursor.number(1), kind = cursor.number(1);
-        if (version >= 3 && kind != 2) return;  // in a heap of the file
-        if (version == 1) cursor.skip(6);
+        if (version >= 2 && kind == 1) {
+            needs_table_ = true;
+            if (frame_.extension) add_header(*frame_.extension);
+            return;
+        }
+        if (version == 1) cursor.skip(6 + frame_.length_bytes);
         const std::uint64_t address = cursor.number(frame_.address_bytes);
-        if (!cursor.is_sound) return damaged("its type is nowhere");
+        if (!cursor.is_sound) return damaged("a part of its header is nowhere");
         add_header(address);
     }
 
@@ -153,9 +161,10 @@ private:
         const auto part = [&](std::size_t at, std::uint64_t size) { return bytes.subspan(at, static_cast<std::size_t>(size)); };
         const auto text = part(name_at, name);
         const bool is_named = std::ranges::find(text, std::byte{0}) != text.end();
-        const bool has_shared_space = version > 1 && (flags & 2) != 0;
+        const bool has_shared_type = version > 1 && (flags & 1) != 0, has_shared_space = version > 1 && (flags & 2) != 0;
         if (!is_named || (!has_shared_space && !is_sound_space(part(space_at, space)))) return damaged("an attribute is damaged");
-        check_type(part(type_at, type), version > 1 && (flags & 1) != 0);
+        if (has_shared_space) check_shared(part(space_at, space));
+        has_shared_type ? check_shared(part(type_at, type)) : check_type(part(type_at, type));
     }
 
     void check_layout(std::span<const std::byte> bytes) {
@@ -178,7 +187,8 @@ private:
     std::vector<Chunk> chunks_;  ///< of the header
     std::string damage_;
     std::uint64_t bytes_ = 0;
-    bool is_new_ = false, has_order_ = false;
+    bool is_new_ = false, has_order_ = false, is_extension_ = false;
+    bool needs_table_ = false, has_table_ = false;  ///< of shared messages
 };
 
 }  // namespace

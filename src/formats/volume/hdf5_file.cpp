@@ -21,12 +21,6 @@ namespace {
 constexpr hssize_t kMostOfAttribute = 65536;
 constexpr std::size_t kMostBytesOfAttribute = std::size_t{16} << 20;
 
-#if H5_VERSION_GE(1, 12, 0)
-using Hdf5Info = H5O_info1_t;
-#else
-using Hdf5Info = H5O_info_t;
-#endif
-
 /// What HDF5 says about the innermost cause of its last error.
 std::string last_hdf5_error() {
     std::string text;

@@ -31,16 +31,23 @@ bool Hdf5Frame::read(std::uint64_t address, std::span<std::byte> out) const {
 
 std::optional<Hdf5Frame> hdf5_frame_of(File& file) {
     constexpr std::array<unsigned char, 8> kSignature{0x89, 'H', 'D', 'F', '\r', '\n', 0x1a, '\n'};
-    std::array<std::byte, 16> bytes{};
+    std::array<std::byte, 28> bytes{};
     const auto all = static_cast<std::uint64_t>(file.size());
     for (std::uint64_t at = 0; at <= all && all - at >= bytes.size(); at = at == 0 ? 512 : 2 * at) {
         if (!fill(file, at, bytes)) return std::nullopt;
         if (std::memcmp(bytes.data(), kSignature.data(), kSignature.size()) != 0) continue;
         const std::size_t sizes = hdf5_number(bytes, 8, 1) < 2 ? 13 : 9;  // by the version of the superblock
-        const Hdf5Frame frame{&file, at, static_cast<std::size_t>(hdf5_number(bytes, sizes, 1)),
-                              static_cast<std::size_t>(hdf5_number(bytes, sizes + 1, 1))};
+        Hdf5Frame frame{&file,
+                        at,
+                        static_cast<std::size_t>(hdf5_number(bytes, sizes, 1)),
+                        static_cast<std::size_t>(hdf5_number(bytes, sizes + 1, 1)),
+                        {}};
         const auto is_known = [](std::size_t count) { return count == 2 || count == 4 || count == 8; };
         if (!is_known(frame.address_bytes) || !is_known(frame.length_bytes)) return std::nullopt;
+        const std::size_t extension = 12 + frame.address_bytes;
+        const std::uint64_t none = ~std::uint64_t{0} >> (64 - 8 * frame.address_bytes),
+                            place = hdf5_number(bytes, extension, frame.address_bytes);
+        if (sizes == 9 && place != none) frame.extension = place;
         return frame;
     }
     return std::nullopt;

@@ -16,6 +16,7 @@ struct Hdf5Frame {
     File* file = nullptr;
     std::uint64_t base = 0;
     std::size_t address_bytes = 0, length_bytes = 0;
+    std::optional<std::uint64_t> extension{};  ///< address of a header with what the superblock has not
 
     /// Bytes from an address to the end of the file; 0: beyond it.
     [[nodiscard]] std::uint64_t rest(std::uint64_t address) const;

@@ -11,6 +11,12 @@
 
 namespace isoatlas {
 
+#if H5_VERSION_GE(1, 12, 0)
+using Hdf5Info = H5O_info1_t;
+#else
+using Hdf5Info = H5O_info_t;
+#endif
+
 struct Hdf5File::Data {
     Hdf5Access access;
     Hdf5Handle file, links;  ///< links: properties with which they are followed

@@ -1,0 +1,75 @@
+// What is checked before HDF5 decodes it.
+#include <gtest/gtest.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <initializer_list>
+#include <string>
+#include <vector>
+
+#include "formats/volume/hdf5_check.h"
+
+namespace isoatlas {
+namespace {
+
+using Bytes = std::vector<std::byte>;
+
+Bytes bytes_of(std::initializer_list<int> numbers, const std::string& text = {}) {
+    Bytes bytes;
+    for (const int number : numbers) bytes.push_back(static_cast<std::byte>(number));
+    for (const char c : text) bytes.push_back(static_cast<std::byte>(c));
+    return bytes;
+}
+
+Bytes operator+(Bytes one, const Bytes& other) {
+    one.insert(one.end(), other.begin(), other.end());
+    return one;
+}
+
+Bytes uint8_type() { return bytes_of({0x10, 0, 0, 0, 1, 0, 0, 0, 0, 0, 8, 0}); }
+
+/// Of two names, in version 3.
+Bytes enumeration(int members, int bytes, const Bytes& base) {
+    return bytes_of({0x38, members, 0, 0, bytes, 0, 0, 0}) + base + bytes_of({}, std::string("no\0yes\0", 7)) + bytes_of({0, 1});
+}
+
+TEST(Hdf5Check, NoPrefixOfATypeIsSound) {
+    const Bytes member = bytes_of({}, std::string("a\0", 2)) + bytes_of({0}) + enumeration(2, 1, uint8_type());
+    const Bytes compound = bytes_of({0x36, 2, 0, 0, 2, 0, 0, 0}) + member + member;
+    const Bytes list = bytes_of({0x19, 0, 0, 0, 16, 0, 0, 0}) + compound;
+    for (const Bytes& type : {uint8_type(), enumeration(2, 1, uint8_type()), compound, list}) {
+        EXPECT_TRUE(is_sound_hdf5_type(type));
+        for (std::size_t size = 0; size < type.size(); ++size) EXPECT_FALSE(is_sound_hdf5_type(std::span(type).first(size))) << size;
+    }
+}
+
+TEST(Hdf5Check, EnumerationsFitTheirMessage) {
+    EXPECT_FALSE(is_sound_hdf5_type(enumeration(3, 1, uint8_type())));
+    EXPECT_FALSE(is_sound_hdf5_type(enumeration(2, 2, uint8_type())));
+    EXPECT_FALSE(is_sound_hdf5_type(enumeration(2, 1, bytes_of({0x13, 0, 0, 0, 1, 0, 0, 0}))));  // of a text
+    EXPECT_FALSE(is_sound_hdf5_type(bytes_of({0x10, 0, 0, 0, 1, 0, 0, 0, 4, 0, 8, 0})));         // bits beyond its bytes
+}
+
+TEST(Hdf5Check, TypesInsideOfTypesEnd) {
+    Bytes lists;
+    for (int i = 0; i < 1000; ++i) lists = lists + bytes_of({0x19, 0, 0, 0, 16, 0, 0, 0});
+    EXPECT_FALSE(is_sound_hdf5_type(lists + uint8_type()));
+}
+
+TEST(Hdf5Check, SourcesNeedTheirChecksum) {
+    const Hdf5Frame frame{nullptr, 0, 8, 8};
+    // One source: file ".", array "p", all samples of both; the checksum is that which HDF5 writes.
+    const Bytes all = bytes_of({3, 0, 0, 0, 1, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0});
+    const Bytes list = bytes_of({0, 1, 0, 0, 0, 0, 0, 0, 0}) + bytes_of({}, std::string(".\0p\0", 4)) + all + all;
+    const Bytes whole = list + bytes_of({0x75, 0xca, 0x59, 0x50});
+    EXPECT_TRUE(is_sound_hdf5_source_list(frame, whole));
+    for (std::size_t i = 0; i < whole.size(); ++i) {
+        Bytes damaged = whole;
+        damaged[i] ^= std::byte{1};
+        EXPECT_FALSE(is_sound_hdf5_source_list(frame, damaged)) << i;
+        EXPECT_FALSE(is_sound_hdf5_source_list(frame, std::span(whole).first(i)));
+    }
+}
+
+}  // namespace
+}  // namespace isoatlas
