@@ -110,6 +110,7 @@ void check_source(Hdf5File::Data& data, hid_t file, const std::string& path, hid
     const Hdf5Handle layout(H5Dget_create_plist(set), H5Pclose), type(H5Dget_type(set), H5Tclose);
     const double samples = static_cast<double>(H5Sget_simple_extent_npoints(space)) * static_cast<double>(H5Tget_size(type));
     const bool is_compact = H5Pget_layout(layout) == H5D_COMPACT;
+    if (H5Pget_layout(layout) != H5D_VIRTUAL) data.check_storage(set, source);
     if (is_compact && static_cast<double>(H5Dget_storage_size(set)) < samples) data.fail(path, "samples of a source are missing");
     if (H5Sget_select_type(wanted) == H5S_SEL_ALL || H5Sget_select_npoints(wanted) == 0) return;
     if (rank != H5Sget_simple_extent_ndims(wanted)) data.fail(path, "a source has other dimensions than the array takes of it");
