@@ -208,6 +208,17 @@ def test_headers_that_lie_do_not_end_the_program(kind, tmp_path):
     assert done.returncode == 0, done.stderr[-2000:]
 
 
+def test_h5py_reads_texts_after_isoatlas(tmp_path):
+    """Both may use one HDF5 in one process."""
+    with h5py.File(tmp_path / "v.h5", "w") as file:
+        file["v"] = np.zeros((3, 4, 5), "u1")
+        file["v"].attrs["units"] = "K"  # of any length
+        file["texts"] = ["one", "other"]
+    assert isoatlas.info(tmp_path / "v.h5")["value_unit"] == "K"
+    with h5py.File(tmp_path / "v.h5") as file:
+        assert list(file["texts"].asstr()) == ["one", "other"] and file["v"].attrs["units"] == "K"
+
+
 def test_shared_files_say_what_they_are():
     shared = SOURCE.parent / "shared" / "data" / "formats"
     if not shared.exists():

@@ -1,6 +1,7 @@
 #include "formats/volume/hdf5_heap.h"
 
 #include <algorithm>
+#include <cstring>
 #include <map>
 #include <span>
 
@@ -10,10 +11,27 @@
 namespace isoatlas {
 namespace {
 
+constexpr const char* kPlaceTag = "isoatlas: place of a list";
+
+/// Bytes that stand for the place of a list, told from those of other users of HDF5 in this process, such as h5py, by their tag.
+Hdf5Handle place_type(std::size_t bytes) {
+    Hdf5Handle type(H5Tcreate(H5T_OPAQUE, bytes), H5Tclose);
+    H5Tset_tag(type, kPlaceTag);
+    return type;
+}
+
+bool is_place(hid_t type) {
+    char* const tag = H5Tget_tag(type);
+    const bool is_own = tag != nullptr && std::strcmp(tag, kPlaceTag) == 0;
+    H5free_memory(tag);
+    return is_own;
+}
+
 /// Leaves what a list is in a file: its length, the address of its heap, its number there. HDF5 would follow them. Both types have one
 /// size.
 herr_t keep_places(hid_t from, hid_t to, H5T_cdata_t* conversion, std::size_t, std::size_t, std::size_t, void*, void*, hid_t) {
     conversion->need_bkg = H5T_BKG_NO;
+    if (conversion->command == H5T_CONV_INIT) return is_place(to) ? 0 : -1;
     return conversion->command != H5T_CONV_CONV || H5Tget_size(from) == H5Tget_size(to) ? 0 : -1;
 }
 
@@ -35,7 +53,7 @@ Hdf5Frame frame_of(hid_t attribute) {
 
 std::vector<std::vector<std::byte>> read_hdf5_lists(hid_t attribute, std::size_t element) {
     static const bool is_registered = [] {
-        const Hdf5Handle list(H5Tvlen_create(H5T_NATIVE_UCHAR), H5Tclose), place(H5Tcreate(H5T_OPAQUE, 1), H5Tclose);
+        const Hdf5Handle list(H5Tvlen_create(H5T_NATIVE_UCHAR), H5Tclose), place = place_type(1);
         return H5Tregister(H5T_PERS_SOFT, "isoatlas lists", list, place, keep_places) >= 0;
     }();
     std::vector<std::vector<std::byte>> lists;
@@ -45,7 +63,7 @@ std::vector<std::vector<std::byte>> read_hdf5_lists(hid_t attribute, std::size_t
     const std::size_t size = 8 + frame.address_bytes;
     if (!is_registered || frame.file == nullptr || count <= 0 || H5Aget_storage_size(attribute) / size < static_cast<hsize_t>(count))
         return lists;
-    const Hdf5Handle place(H5Tcreate(H5T_OPAQUE, size), H5Tclose);
+    const Hdf5Handle place = place_type(size);
     std::vector<std::byte> places(static_cast<std::size_t>(count) * size);
     if (H5Aread(attribute, place, places.data()) < 0) return lists;
     std::map<std::uint64_t, std::vector<std::byte>> heaps;
