@@ -80,13 +80,12 @@ struct Server::Data {
             if (request.path == "/frame") return send_frame(head, peer);
             if (on_its_way > most_on_its_way) return send(head, too_much(), peer);
             if (request.path == "/api/address") return send(head, new_address(request), peer);
+            if (!services.has(of_volume.volume)) return send(head, refused(404, services.no_such_volume(of_volume.volume)), peer);
             const VolumeServices::Use service = services.use(of_volume.volume, request.path == "/");
             if (request.path == "/api/volumes") return send(head, volumes(request, of_volume.volume), peer);
             Response answer = service->answer(request);
             if (answer.events) return send_events(head, answer, peer);
             return send(head, std::move(answer), peer);
-        } catch (const Error& error) {
-            return send(head, refused(404, error), peer);
         } catch (const std::bad_alloc&) {  // nothing has been sent
             (void)peer.send(AccessControl::refusal(503));
             return false;

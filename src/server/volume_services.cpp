@@ -1,7 +1,5 @@
 #include "server/volume_services.h"
 
-#include "isoatlas/error.h"
-
 namespace isoatlas {
 
 VolumeServices::VolumeServices(const std::string& token, const ServerOptions& options, const Context& context)
@@ -16,14 +14,22 @@ VolumeServices::VolumeServices(const std::string& token, const ServerOptions& op
     services_.emplace(first_, std::make_shared<Service>(token_, context_, of_first));
 }
 
-VolumeServices::Use VolumeServices::use(std::optional<std::int64_t> volume, bool is_page) {
+bool VolumeServices::has(std::optional<std::int64_t> volume) const {
     const std::int64_t number = number_of(volume);
-    if (number < 0 || number >= channels_.count()) {
-        throw Error(ErrorKind::not_found, {.where = "/volume/" + std::to_string(number),
-                                           .what = "there is no such volume",
-                                           .expected = "less than " + std::to_string(channels_.count()),
-                                           .next = "/api/volumes lists channels and time steps"});
-    }
+    return number >= 0 && number < channels_.count();
+}
+
+Error VolumeServices::no_such_volume(std::optional<std::int64_t> volume) const {
+    return {ErrorKind::not_found,
+            {.where = "/volume/" + std::to_string(number_of(volume)),
+             .what = "there is no such volume",
+             .expected = "less than " + std::to_string(channels_.count()),
+             .next = "/api/volumes lists channels and time steps"}};
+}
+
+VolumeServices::Use VolumeServices::use(std::optional<std::int64_t> volume, bool is_page) {
+    if (!has(volume)) throw no_such_volume(volume);
+    const std::int64_t number = number_of(volume);
     Use service;
     bool is_new = false;
     {

@@ -8,6 +8,7 @@
 #include <mutex>
 #include <string>
 
+#include "isoatlas/error.h"
 #include "isoatlas/server.h"
 #include "server/service.h"
 
@@ -20,6 +21,8 @@ public:
 
     /// A service, which is not closed before the last copy is gone.
     using Use = std::shared_ptr<Service>;
+    [[nodiscard]] bool has(std::optional<std::int64_t> volume) const;
+    [[nodiscard]] Error no_such_volume(std::optional<std::int64_t> volume) const;
     /// nullopt: the first. Tells ServerOptions::wanted of one that is not the first where it has none yet, or where a page is asked for.
     /// Throws Error{not_found}: no such volume.
     [[nodiscard]] Use use(std::optional<std::int64_t> volume, bool is_page = false);
