@@ -78,14 +78,14 @@ describe.skipIf(!canServe)("a file of several time steps", () => {
     await tab.waitForSelector(".objects [role=tab]", { timeout: 120_000 });
     const screenshots = process.env.ISOATLAS_SCREENSHOTS;
     if (screenshots) await tab.screenshot({ path: join(screenshots, "volumes.png") });
-    const objects = (await (await fetch(`${served.origin}/volume/2/api/objects?tau=150`, { headers: { Authorization: `Bearer ${served.token}` } })).json()) as {
-      objects: unknown[];
-    };
+    const authorised = { headers: { Authorization: `Bearer ${served.token}` } };
+    const answer = await fetch(`${served.origin}/volume/2/api/objects?tau=150`, authorised);
+    const objects = (await answer.json()) as { objects: unknown[] };
     expect(objects.objects).toHaveLength(3);
     await tab.reload();
     await tab.waitForSelector(".objects [role=tab]");
     expect(await tab.getByRole("slider", { name: "time step" }).inputValue()).toBe("2");
-    const missing = await fetch(`${served.origin}/volume/3/api/atlas`, { headers: { Authorization: `Bearer ${served.token}` } });
+    const missing = await fetch(`${served.origin}/volume/3/api/atlas`, authorised);
     expect(missing.status).toBe(404);
   }, 300_000);
 });
