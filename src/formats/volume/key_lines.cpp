@@ -10,7 +10,7 @@
 namespace isoatlas {
 namespace {
 
-constexpr std::int64_t kMaxBytes = std::int64_t{1} << 20;
+constexpr std::int64_t kMaxLinesBytes = std::int64_t{1} << 20;
 
 bool is_comment(std::string_view line) { return line.empty() || line.starts_with('#') || line.starts_with("//"); }
 
@@ -24,8 +24,8 @@ std::pair<std::string_view, std::string_view> split_pair(std::string_view line) 
 }  // namespace
 
 KeyLines::KeyLines(const std::string& path, std::span<const std::string_view> known) : path_(path) {
-    const std::vector<std::byte> bytes = read_header_bytes(path, kMaxBytes + 1);
-    if (static_cast<std::int64_t>(bytes.size()) > kMaxBytes)
+    const std::vector<std::byte> bytes = read_header_bytes(path, kMaxLinesBytes + 1);
+    if (static_cast<std::int64_t>(bytes.size()) > kMaxLinesBytes)
         throw Error(ErrorKind::input, {.file = path, .what = "the header is longer than 1 MiB", .next = "get the file again"});
     const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
     int number = 0;
