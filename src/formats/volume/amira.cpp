@@ -21,6 +21,7 @@
 #include "formats/volume/byte_rle_source.h"
 #include "formats/volume/component_source.h"
 #include "formats/volume/formats.h"
+#include "formats/volume/named_type.h"
 #include "formats/volume/sample_reader.h"
 #include "formats/volume/vtk_geometry.h"
 #include "isoatlas/text.h"
@@ -31,19 +32,16 @@ namespace {
 constexpr const char* kLattice = "Lattice";
 
 std::optional<ValueType> type_of_amira(const std::string& name) {
-    static constexpr std::array<std::pair<std::string_view, ValueType>, 9> kTypes{{{"byte", ValueType::u8},
-                                                                                   {"short", ValueType::i16},
-                                                                                   {"ushort", ValueType::u16},
-                                                                                   {"int", ValueType::i32},
-                                                                                   {"int32", ValueType::i32},
-                                                                                   {"uint", ValueType::u32},
-                                                                                   {"uint32", ValueType::u32},
-                                                                                   {"float", ValueType::f32},
-                                                                                   {"double", ValueType::f64}}};
-    for (const auto& [spelling, type] : kTypes) {
-        if (name == spelling) return type;
-    }
-    return std::nullopt;
+    static constexpr std::array<NamedType, 9> kTypes{{{"byte", ValueType::u8},
+                                                      {"short", ValueType::i16},
+                                                      {"ushort", ValueType::u16},
+                                                      {"int", ValueType::i32},
+                                                      {"int32", ValueType::i32},
+                                                      {"uint", ValueType::u32},
+                                                      {"uint32", ValueType::u32},
+                                                      {"float", ValueType::f32},
+                                                      {"double", ValueType::f64}}};
+    return find_type(kTypes, name);
 }
 
 ValueType required_type(const AmiraHeader& header, const AmiraArray& array) {

@@ -9,6 +9,7 @@
 #include "formats/common/byte_source.h"
 #include "formats/common/text.h"
 #include "formats/volume/bad_header.h"
+#include "formats/volume/named_type.h"
 #include "formats/volume/raw_header.h"
 
 namespace isoatlas {
@@ -17,18 +18,15 @@ namespace {
 constexpr std::int64_t kMaxMipavBytes = std::int64_t{1} << 24;
 
 std::optional<ValueType> type_of_mipav(const std::string& name) {
-    static constexpr std::array<std::pair<std::string_view, ValueType>, 8> kTypes{{{"byte", ValueType::i8},
-                                                                                   {"unsigned byte", ValueType::u8},
-                                                                                   {"short", ValueType::i16},
-                                                                                   {"unsigned short", ValueType::u16},
-                                                                                   {"integer", ValueType::i32},
-                                                                                   {"unsigned integer", ValueType::u32},
-                                                                                   {"float", ValueType::f32},
-                                                                                   {"double", ValueType::f64}}};
-    for (const auto& [spelling, type] : kTypes) {
-        if (name == spelling) return type;
-    }
-    return std::nullopt;
+    static constexpr std::array<NamedType, 8> kTypes{{{"byte", ValueType::i8},
+                                                      {"unsigned byte", ValueType::u8},
+                                                      {"short", ValueType::i16},
+                                                      {"unsigned short", ValueType::u16},
+                                                      {"integer", ValueType::i32},
+                                                      {"unsigned integer", ValueType::u32},
+                                                      {"float", ValueType::f32},
+                                                      {"double", ValueType::f64}}};
+    return find_type(kTypes, name);
 }
 
 /// The text of the elements of a name, in their order.
