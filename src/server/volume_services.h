@@ -23,7 +23,7 @@ public:
     using Use = std::shared_ptr<Service>;
     [[nodiscard]] bool has(std::optional<std::int64_t> volume) const;
     [[nodiscard]] Error no_such_volume(std::optional<std::int64_t> volume) const;
-    /// nullopt: the first. Tells ServerOptions::wanted of one that is not the first where it has none yet, or where a page is asked for.
+    /// nullopt: the first. Calls ServerOptions::wanted for any other one that is new, or whose page is requested.
     /// Throws Error{not_found}: no such volume.
     [[nodiscard]] Use use(std::optional<std::int64_t> volume, bool is_page = false);
     [[nodiscard]] Use first() { return use({}); }

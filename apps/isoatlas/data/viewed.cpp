@@ -59,8 +59,8 @@ void OtherVolumes::open(std::int64_t volume, Server& server) {
         Arguments own = of_volume(*several_, volume);
         assume_inputs(own, terminal_);
         auto viewed = std::make_unique<Viewed>(with_sides(own));
-        const auto tell = [&](const BuildState& state) { server.report_progress(state, volume); };
-        if (!is_ready(viewed->arguments, terminal_, viewed->store)) await_store(viewed->arguments, terminal_, viewed->store, tell);
+        const auto report = [&](const BuildState& state) { server.report_progress(state, volume); };
+        if (!is_ready(viewed->arguments, terminal_, viewed->store)) await_store(viewed->arguments, terminal_, viewed->store, report);
         viewed->open();
         check_is_volume(viewed->arguments, viewed->atlas->info());
         viewed->show(server, volume);

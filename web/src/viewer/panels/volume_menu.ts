@@ -58,7 +58,7 @@ export class VolumeMenu {
     this.step = html("input", { type: "range", min: 0, max: steps - 1, step: 1, "aria-label": "time step" });
     this.step.value = String(Math.floor(volume / channels.length));
     this.channel.addEventListener("change", () => this.open());
-    this.step.addEventListener("input", () => this.tell());
+    this.step.addEventListener("input", () => this.showTime());
     this.step.addEventListener("change", () => this.open());
     const ofTime = [this.button("previous time step", "‹", -1), this.step, this.button("next time step", "›", 1), this.time];
     this.element = html(
@@ -67,7 +67,7 @@ export class VolumeMenu {
       channels.length > 1 && html("label", {}, "Channel ", this.channel),
       steps > 1 && html("div", { class: "time" }, "Time ", ...ofTime),
     );
-    this.tell();
+    this.showTime();
   }
 
   private button(name: string, sign: string, by: number): HTMLElement {
@@ -79,13 +79,13 @@ export class VolumeMenu {
     return html("button", { type: "button", "aria-label": name, title: name, click: go }, sign);
   }
 
-  private tell(): void {
+  private showTime(): void {
     this.time.value = timeText(this.volumes, Number(this.step.value));
     this.step.setAttribute("aria-valuetext", this.time.value);
   }
 
   private open(): void {
-    this.tell();
+    this.showTime();
     const volume = Number(this.channel.value) + Number(this.step.value) * this.volumes.channels.length;
     location.assign(pathOf(location.pathname, volume) + this.hash());
   }
