@@ -282,7 +282,7 @@ std::int64_t Hdf5Layout::add_chunk(std::int64_t bytes) {
     std::int64_t rest = data_->next_chunk++;
     for (std::size_t d = first.size(); d-- > 0;) {
         const std::int64_t chunk = data_->chunk[d], count = (data_->shape[d] + chunk - 1) / chunk;
-        first[d] = static_cast<hsize_t>(rest % count * chunk);
+        first[d] = static_cast<hsize_t>(rest % count) * static_cast<hsize_t>(chunk);
         rest /= count;
     }
     return data_->allocate(data_->chunked, "an array", first.data(), static_cast<std::size_t>(bytes));

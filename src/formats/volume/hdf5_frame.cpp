@@ -60,11 +60,11 @@ std::uint64_t hdf5_number(std::span<const std::byte> bytes, std::size_t at, std:
 }
 
 std::vector<std::byte> read_hdf5_collection(const Hdf5Frame& frame, std::uint64_t address) {
-    constexpr std::size_t kMaxBytes = std::size_t{64} << 20;
+    constexpr std::size_t kMaxHeapBytes = std::size_t{64} << 20;
     std::vector<std::byte> bytes(kCollectionSizeAt + frame.length_bytes);
     if (!frame.read(address, bytes) || std::memcmp(bytes.data(), "GCOL\1", 5) != 0) return {};
     const std::uint64_t size = hdf5_number(bytes, kCollectionSizeAt, frame.length_bytes);
-    if (size < bytes.size() || size > frame.rest(address) || size > kMaxBytes) return {};
+    if (size < bytes.size() || size > frame.rest(address) || size > kMaxHeapBytes) return {};
     bytes.resize(static_cast<std::size_t>(size));
     return frame.read(address, bytes) ? bytes : std::vector<std::byte>{};
 }

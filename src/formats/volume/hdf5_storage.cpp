@@ -162,7 +162,7 @@ bool Hdf5Storage::find(std::span<const std::int64_t> index, Hdf5Range& place, st
     const std::lock_guard lock(hdf5_mutex());
     Hdf5File::Data& data = file_->data();
     std::array<hsize_t, H5S_MAX_RANK> first{};
-    for (std::size_t d = 0; d < index.size(); ++d) first[d] = static_cast<hsize_t>(index[d] * chunk_[d]);
+    for (std::size_t d = 0; d < index.size(); ++d) first[d] = static_cast<hsize_t>(index[d]) * static_cast<hsize_t>(chunk_[d]);
     data.access.forget();
     data.access.noted = &place;
     std::byte unused{};

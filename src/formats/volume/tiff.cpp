@@ -122,7 +122,7 @@ std::unique_ptr<VolumeReader> open_tiff(const std::string& path, const OpenOptio
         volume.slices.push_back({.directory = page.directory, .number = page.number});
         if (behind > 0) volume.slices.back().raw = contiguous + number * page.bytes() * page.pixel.samples;
     }
-    const TiffPage first = pages[static_cast<std::size_t>(behind > 0 ? 0 : choice.channel.plane + channels * planes.slices * choice.time)];
+    const TiffPage& first = pages[static_cast<std::size_t>(behind > 0 ? 0 : choice.channel.plane + channels * planes.slices * choice.time)];
     if (behind == 0) require_one_shape(path, pages);
     info.geometry = tiff_geometry(tags, description, info.extent.size[2], info.notes);
     return make_tiff_reader(std::move(info), std::move(volume), std::move(file), first, options);

@@ -128,7 +128,7 @@ void require_memory(const VolumeInfo& info, const OpenOptions& options) {
 }
 
 template <class Sample, class Grid>
-std::unique_ptr<VolumeReader> reader_of(VolumeInfo info, std::shared_ptr<const Grid> grid, const openvdb::Coord& corner) {
+std::unique_ptr<VolumeReader> reader_of(VolumeInfo info, const std::shared_ptr<const Grid>& grid, const openvdb::Coord& corner) {
     for (std::size_t axis = 0; axis < 3; ++axis) info.chunk[axis] = std::min(kChunk, info.extent.size[axis]);
     const Index3 chunk_size = info.chunk;
     return make_chunk_reader(std::move(info), [grid, corner, chunk_size](const Index3& chunk, std::span<std::byte> out) {
