@@ -21,11 +21,9 @@
 #include "isoatlas/error.h"
 #include "isoatlas/index3.h"
 #include "isoatlas/sample_bytes.h"
+#include "isoatlas/vec3.h"
 
 namespace isoatlas {
-
-using Vec3 = std::array<double, 3>;
-using Mat3 = std::array<Vec3, 3>;  ///< rows
 
 enum class ValueType : std::uint8_t { u8, i8, u16, i16, u32, i32, f32, f64 };
 [[nodiscard]] std::size_t size_of(ValueType type);

@@ -8,9 +8,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/error_free.h"
 #include "base/target_clones.h"
 #include "critical/trilinear.h"
-#include "field/error_free.h"
 #include "field/rounding.h"
 
 namespace isoatlas {

@@ -9,9 +9,9 @@
 #include <cmath>
 #include <optional>
 
+#include "base/error_free.h"
 #include "critical/trilinear.h"
 #include "field/cell.h"
-#include "field/error_free.h"
 #include "field/exact_rounding.h"
 
 namespace isoatlas {

@@ -4,8 +4,8 @@
 
 #include <cmath>
 
+#include "base/error_free.h"
 #include "base/target_clones.h"
-#include "field/error_free.h"
 #include "field/rounding.h"
 
 namespace isoatlas {

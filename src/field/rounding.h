@@ -8,7 +8,7 @@
 #include <cstdint>
 #include <limits>
 
-#include "field/error_free.h"
+#include "base/error_free.h"
 
 namespace isoatlas {
 

@@ -7,7 +7,7 @@
 #include <limits>
 #include <utility>
 
-#include "field/error_free.h"
+#include "base/error_free.h"
 
 namespace isoatlas {
 namespace {

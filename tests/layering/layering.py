@@ -13,7 +13,7 @@ from pathlib import Path
 
 # library -> the libraries it needs, and its rooms (folders of src) in the order in which data flows through them
 LIBRARIES = {
-    "core": ([], ["base", "field", "critical", "tree", "zones", "analysis", "features", "persistence", "levelset", "mesh"]),
+    "core": ([], ["base", "geometry", "field", "critical", "tree", "zones", "analysis", "features", "persistence", "levelset", "mesh"]),
     "formats": (["core"], ["formats/common", "formats/zarr", "formats/volume", "formats/mesh", "formats/tree"]),
     "remote": (["formats"], ["remote"]),
     "store": (["formats"], ["codec", "store", "bricks", "census", "atlas"]),
@@ -28,7 +28,7 @@ LIBRARY_OF = {room: library for library, (_, rooms) in LIBRARIES.items() for roo
 FOLDERS = {room.split("/")[0] for room in LIBRARY_OF}
 # room -> public headers (isoatlas/NAME.h) that belong to it: rooms before it do not include them, as they do not include its own
 PUBLIC = {
-    "base": "array bounds context environment error id index3 output_file sink text version",
+    "base": "array bounds context environment error id index3 output_file sink text vec3 version",
     "field": "filter interpolant isovalue polarity sample_bytes samples_wanted shell units volume",
     "tree": "criticality",
     "analysis": "active analysis",
