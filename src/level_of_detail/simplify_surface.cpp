@@ -1,0 +1,171 @@
+// The order of collapses: passes over blocks with a growing limit of the cost and growing, shifted blocks, so that the order is nearly
+// that of the cost over the whole surface, whatever the blocks; at last one block holds all that is left.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+#include "base/cancel.h"
+#include "base/parallel.h"
+#include "isoatlas/error.h"
+#include "isoatlas/level_of_detail.h"
+#include "level_of_detail/collapse_block.h"
+#include "level_of_detail/surface_frame.h"
+
+namespace isoatlas {
+namespace {
+
+constexpr std::size_t kMaxTriangles = std::size_t{1} << 30;  // corners and pieces have numbers of 32 bits
+
+struct Pass {
+    double edge;      ///< of a block, in units of distance; infinity: one block
+    double shift;     ///< of the blocks
+    double max_cost;  ///< infinity: any
+};
+
+/// step: a sample step. tolerance: the distance that decides which costs are small.
+std::vector<Pass> passes(double step, double tolerance) {
+    constexpr double kInfinity = std::numeric_limits<double>::infinity();
+    std::vector<Pass> all;
+    double cost = tolerance * tolerance * step * step / 256;
+    for (const double edge : {32.0, 32.0, 48.0, 48.0, 64.0, 64.0, 96.0}) {
+        const bool is_shifted = all.size() % 2 == 1;
+        all.push_back({edge * step, is_shifted ? edge * step / 2 : 0, cost});
+        cost *= 8;
+    }
+    all.push_back({kInfinity, 0, kInfinity});
+    return all;
+}
+
+/// The normal of the surface at a point beside it: that of its nearest triangle there.
+std::array<float, 3> normal_near(const Surface& surface, const OriginalSurface& original, const Vec3& scaled, double step) {
+    OriginalSurface::Nearest nearest{kNone, 0};
+    for (double distance = step; nearest.triangle == kNone; distance *= 2) nearest = original.nearest(scaled, distance);
+    const TrianglePoints corners = original.corners(nearest.triangle);
+    const NearestPoint place = nearest_point(scaled, corners);
+    Vec3 sum{};
+    for (std::size_t k = 0; k < 3; ++k) {  // weights: areas opposite of the corners
+        const Vec3 n = cross(minus(corners[(k + 1) % 3], place.point), minus(corners[(k + 2) % 3], place.point));
+        const double weight = std::sqrt(dot(n, n)) + 1e-300;
+        const std::array<float, 3>& normal = surface.normals[static_cast<std::size_t>(surface.triangles[nearest.triangle][k])];
+        for (std::size_t axis = 0; axis < 3; ++axis) sum[axis] += weight * normal[axis];
+    }
+    const double length = std::sqrt(dot(sum, sum));
+    if (!(length > 0)) return surface.normals[static_cast<std::size_t>(surface.triangles[nearest.triangle][0])];
+    return {static_cast<float>(sum[0] / length), static_cast<float>(sum[1] / length), static_cast<float>(sum[2] / length)};
+}
+
+/// The points that the triangles use, in their order.
+Surface remaining(const Surface& surface, const SurfaceState& state, const OriginalSurface& original) {
+    const CollapsibleMesh& mesh = state.mesh;
+    Surface result;
+    result.tau = surface.tau, result.reported_tau = surface.reported_tau;
+    result.space = surface.space, result.unit = surface.unit;
+    result.closed = surface.closed, result.interpolant = surface.interpolant, result.polarity = surface.polarity;
+    result.tunnel_height = surface.tunnel_height, result.reported_tunnel_height = surface.reported_tunnel_height;
+    std::vector<std::int64_t> place(surface.points.size(), -1);
+    for (std::uint32_t point = 0; point < mesh.points(); ++point) {
+        if (!mesh.has_point(point)) continue;
+        place[point] = static_cast<std::int64_t>(result.points.size());
+        result.points.push_back(state.points[point]);
+        if (!surface.normals.empty()) {
+            const bool has_moved = state.scaled[point] != original.point(point);
+            result.normals.push_back(has_moved ? normal_near(surface, original, state.scaled[point], state.frame->step()) : surface.normals[point]);
+        }
+        if (!surface.object.empty()) result.object.push_back(surface.object[point]);
+        if (!surface.contour.empty()) result.contour.push_back(surface.contour[point]);
+    }
+    for (std::uint32_t t = 0; t < mesh.triangles(); ++t) {
+        if (!mesh.has_triangle(t)) continue;
+        const auto [a, b, c] = mesh.triangle(t);
+        result.triangles.push_back({place[a], place[b], place[c]});
+    }
+    return result;
+}
+
+/// Marks the points of edges with one triangle.
+void mark_rims(const CollapsibleMesh& mesh, Array<std::uint16_t>& faces) {
+    for (std::uint32_t point = 0; point < mesh.points(); ++point) {
+        mesh.for_fan(point, [&](std::uint32_t corner) {
+            const std::uint32_t next = mesh.point(next_corner(corner));
+            bool is_inner = false;
+            mesh.for_fan(point, [&](std::uint32_t other) { is_inner = is_inner || mesh.point(last_corner(other)) == next; });
+            if (!is_inner) faces[point] |= kRim, faces[next] |= kRim;
+        });
+    }
+}
+
+SurfaceState state_of(const Surface& surface, const SurfaceFrame& frame) {
+    SurfaceState state{.mesh = CollapsibleMesh(surface.triangles, surface.points.size()),
+                       .frame = &frame,
+                       .scaled = Array<Vec3>(frame.scaled().begin(), frame.scaled().end()),
+                       .points = surface.points,
+                       .quadrics = Array<Quadric<float>>(surface.points.size(), Quadric<float>{}),
+                       .faces = frame.faces(),
+                       .locked = Array<std::uint8_t>(surface.points.size(), 0),
+                       .failed = Array<std::uint8_t>(surface.triangles.size(), 0),
+                       .distance = {}};
+    for (std::uint32_t point = 0; point < state.points.size(); ++point) {
+        state.mesh.for_fan(point, [&](std::uint32_t corner) {
+            state.quadrics[point].add_triangle(minus(state.scaled[state.mesh.point(next_corner(corner))], state.scaled[point]),
+                                               minus(state.scaled[state.mesh.point(last_corner(corner))], state.scaled[point]));
+        });
+    }
+    mark_rims(state.mesh, state.faces);
+    return state;
+}
+
+void require_options(const Surface& surface, const SimplificationOptions& options) {
+    if (!(options.max_distance > 0)) {
+        throw Error(ErrorKind::usage, {.what = "the greatest distance of a simplified surface is not positive", .expected = "more than 0"});
+    }
+    if (options.triangles < 0) {
+        throw Error(ErrorKind::usage, {.what = "the number of triangles is negative", .expected = "0 or more"});
+    }
+    if (surface.triangles.size() >= kMaxTriangles) {
+        throw Error(ErrorKind::resource, {.what = "the surface has " + std::to_string(surface.triangles.size()) + " triangles",
+                                          .expected = "fewer than 2^30 triangles",
+                                          .next = "simplify its objects one by one"});
+    }
+}
+
+}  // namespace
+
+Surface simplify_surface(const Surface& surface, const Geometry& geometry, const Extent& extent, const SimplificationOptions& options,
+                         const Context& context) {
+    require_options(surface, options);
+    const auto full = static_cast<std::int64_t>(surface.triangles.size());
+    if (full == 0 || full <= options.triangles) return surface;
+    const SurfaceFrame frame(surface, geometry, extent, options.unit);
+    const bool is_bounded = std::isfinite(options.max_distance);
+    const OriginalSurface original(frame.scaled(), surface.triangles,
+                                   is_bounded ? std::max(frame.step(), options.max_distance) : frame.step());
+    SurfaceState state = state_of(surface, frame);
+    if (is_bounded) {
+        state.distance.original = &original;
+        state.distance.max = options.max_distance;
+        state.distance.to_original.assign(surface.triangles.size(), 0);
+        state.distance.tracked = TrackedPieces(surface.triangles.size());
+    }
+    std::int64_t left = full;
+    const double tolerance = is_bounded ? options.max_distance : frame.step();
+    for (const Pass& pass : passes(frame.step(), tolerance)) {
+        stop_if_cancelled(context);
+        const std::int64_t least = std::isinf(pass.edge) ? options.triangles : 2 * options.triangles;
+        if (left <= least) continue;
+        Box bounds;
+        for (const Vec3& p : state.scaled) bounds.add(p);
+        const BlockGrid grid(bounds, pass.edge, pass.shift);
+        const std::vector<Block> blocks = blocks_of(state, grid);
+        std::vector<std::int64_t> gone(blocks.size(), 0);
+        for_each_block(context.threads, static_cast<std::int64_t>(blocks.size()), [&](std::int64_t i) {
+            const auto inside = static_cast<double>(blocks[i].inside.size());
+            const auto kept = static_cast<std::int64_t>(inside * static_cast<double>(least) / static_cast<double>(left));
+            gone[i] = collapse_block(state, blocks[i], {.max_cost = pass.max_cost, .triangles = kept});
+        });
+        left -= std::accumulate(gone.begin(), gone.end(), std::int64_t{0});
+    }
+    return remaining(surface, state, original);
+}
+
+}  // namespace isoatlas
