@@ -79,6 +79,7 @@
 #include "isoatlas/thickness.h"
 #include "isoatlas/trilinear_distance.h"
 #include "isoatlas/units.h"
+#include "isoatlas/vec3.h"
 #include "isoatlas/verify.h"
 #include "isoatlas/version.h"
 #include "isoatlas/volume.h"

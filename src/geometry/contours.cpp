@@ -110,7 +110,7 @@ std::vector<std::vector<std::int64_t>> find_enclosing(const MeshView& mesh, cons
     std::vector<std::vector<std::int64_t>> enclosing(contours.list.size());
     for_each_block(context.threads, static_cast<std::int64_t>(enclosing.size()), [&](std::int64_t i) {
         const Vec3& p = mesh.points[static_cast<std::size_t>(contours.list[static_cast<std::size_t>(i)].first_point)];
-        const Box ray{p, {std::numeric_limits<double>::infinity(), p[1], p[2]}};
+        const BoundingBox ray{p, {std::numeric_limits<double>::infinity(), p[1], p[2]}};
         std::vector<std::int64_t> met;
         tree.for_each_leaf(ray, 0, [&](std::size_t leaf) {
             for (const std::int64_t triangle : tree.leaf(leaf)) {

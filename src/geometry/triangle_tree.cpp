@@ -87,7 +87,7 @@ TriangleTree::TriangleTree(std::span<const Vec3> points, std::span<const Triangl
     for_each_block(threads, static_cast<std::int64_t>(parts.size()), [&](std::int64_t i) { halving.halve(parts[i], 0); });
 
     for_each_index(threads, levels_[0].size(), [&](std::size_t leaf) {
-        Box box;
+        BoundingBox box;
         const std::size_t end = std::min(entries.size(), (leaf + 1) * kLeaf);
         for (std::size_t i = leaf * kLeaf; i < end; ++i) {
             order_[i] = entries[i].triangle;
@@ -97,7 +97,7 @@ TriangleTree::TriangleTree(std::span<const Vec3> points, std::span<const Triangl
     });
     for (std::size_t level = 1; level < levels_.size(); ++level)
         for_each_index(threads, levels_[level].size(), [&](std::size_t i) {
-            Box box = levels_[level - 1][2 * i];
+            BoundingBox box = levels_[level - 1][2 * i];
             if (2 * i + 1 < levels_[level - 1].size()) box.add(levels_[level - 1][2 * i + 1]);
             levels_[level][i] = box;
         });
@@ -121,7 +121,7 @@ NearTriangle TriangleTree::nearest(const Vec3& p, NearTriangle known) const {
             }
             continue;
         }
-        const BigVector<Box>& below = levels_[node.level - 1];
+        const BigVector<BoundingBox>& below = levels_[node.level - 1];
         Open first{node.level - 1, 2 * node.number, below[2 * node.number].squared_distance(p)};
         if (first.number + 1 < below.size()) {
             Open second{first.level, first.number + 1, below[first.number + 1].squared_distance(p)};

@@ -17,14 +17,14 @@ namespace isoatlas {
 
 using TriangleCorners = std::array<std::int64_t, 3>;
 
-struct Box {
+struct BoundingBox {
     Vec3 low{kInfinite, kInfinite, kInfinite}, high{-kInfinite, -kInfinite, -kInfinite};  ///< empty
 
     void add(const Vec3& p) {
         for (std::size_t i = 0; i < 3; ++i) low[i] = std::min(low[i], p[i]), high[i] = std::max(high[i], p[i]);
     }
-    void add(const Box& box) { add(box.low), add(box.high); }
-    [[nodiscard]] bool meets(const Box& box) const {
+    void add(const BoundingBox& box) { add(box.low), add(box.high); }
+    [[nodiscard]] bool meets(const BoundingBox& box) const {
         for (std::size_t i = 0; i < 3; ++i)
             if (high[i] < box.low[i] || box.high[i] < low[i]) return false;
         return true;
@@ -68,11 +68,11 @@ public:
     [[nodiscard]] std::span<const std::int64_t> leaf(std::size_t i) const {
         return std::span(order_).subspan(i * kLeaf, std::min(kLeaf, order_.size() - i * kLeaf));
     }
-    [[nodiscard]] const Box& leaf_box(std::size_t i) const { return levels_[0][i]; }
+    [[nodiscard]] const BoundingBox& leaf_box(std::size_t i) const { return levels_[0][i]; }
 
     /// Calls visit(leaf) for every leaf from number `first` on whose box meets a box.
     template <class Visit>
-    void for_each_leaf(const Box& box, std::size_t first, Visit&& visit) const {
+    void for_each_leaf(const BoundingBox& box, std::size_t first, Visit&& visit) const {
         std::vector<Node> open;
         if (!order_.empty()) open.push_back({levels_.size() - 1, 0});
         while (!open.empty()) {
@@ -95,8 +95,8 @@ private:
 
     std::span<const Vec3> points_;
     std::span<const TriangleCorners> triangles_;
-    BigVector<std::int64_t> order_;       // triangles, leaf by leaf
-    std::vector<BigVector<Box>> levels_;  // leaves first; the last has one node, unless there is no triangle
+    BigVector<std::int64_t> order_;               // triangles, leaf by leaf
+    std::vector<BigVector<BoundingBox>> levels_;  // leaves first; the last has one node, unless there is no triangle
 };
 
 }  // namespace isoatlas

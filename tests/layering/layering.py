@@ -80,7 +80,7 @@ DOORS = {
     r"zstd\.h": r"src/server/coding\.cpp|src/formats/zarr/codecs\.cpp|tests/.*",
     r"blosc\.h|lz4\.h": r"src/formats/zarr/codecs\.cpp|tests/.*",
     r"boost/(asio|beast)/.*": r"src/server/(network|request_head|response_reader)\.cpp|tests/.*",
-    r"meshoptimizer\.h": r"src/preview/(wire_mesh|coarse_surface)\.cpp|tests/.*",
+    r"meshoptimizer\.h": r"src/preview/(wire_mesh|coarse_surface)\.cpp|(tests|bench)/.*",
     r"webp/.*": r"src/image/webp\.cpp",
     r"embree3/.*": r"src/render/ray_surfaces\.cpp|src/measures/solid_rays\.cpp",
     r"fcntl\.h|sys/(stat|file)\.h|fstream": r"src/base/.*|(apps|tests|bench)/.*",

@@ -138,6 +138,10 @@ void convert(const CLI::App& app, const Typed& typed, Arguments& arguments) {
         return option != nullptr && option->count() > 0;
     };
     convert_reading(given, typed, arguments);
+    if (given("--against")) {
+        arguments.mesh = arguments.file;
+        arguments.file = typed.against;
+    }
     if (given("--box")) arguments.box = parse_box("--box", typed.box);
     if (given("--unit")) arguments.open.unit = parse_unit("--unit", typed.unit);
     if (given("--value-unit")) arguments.open.value_unit = parse_unit("--value-unit", typed.value_unit);

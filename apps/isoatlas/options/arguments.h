@@ -33,6 +33,7 @@ struct Arguments {
     std::string verb;
     std::string file;               ///< VOLUME, MESH, or the name of a phantom, verb or shell
     std::string output;             ///< -o; empty: none
+    std::string mesh;               ///< verify --against: what is verified, against the surface of `file`; empty: `file` itself
     std::vector<std::string> part;  ///< name of a part of a store
 
     // Input
@@ -86,6 +87,8 @@ struct Arguments {
     int levels = 8;
     bool full = false;
     std::uint64_t seed = 1;
+    std::optional<double> max_distance;  ///< verify --against: in voxels
+    std::optional<double> max_error;     ///< the same, in the unit of the volume
 
     // Server
     int port = 0;       ///< 0: that of the links of the store, or any

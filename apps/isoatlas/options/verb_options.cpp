@@ -13,8 +13,8 @@ void add_output(CLI::App& app, Arguments& arguments, const std::string& formats,
     if (required) option->required();
 }
 
-void add_tau(CLI::App& app, Typed& typed, const std::string& meaning) {
-    add_number(app, "--tau,--isovalue,--threshold", typed.tau, meaning + ", in the file's (calibrated) values")->type_name("T");
+CLI::Option* add_tau(CLI::App& app, Typed& typed, const std::string& meaning) {
+    return add_number(app, "--tau,--isovalue,--threshold", typed.tau, meaning + ", in the file's (calibrated) values")->type_name("T");
 }
 
 void add_build(CLI::App& app, Arguments& arguments, Typed& typed) {
@@ -23,8 +23,28 @@ void add_build(CLI::App& app, Arguments& arguments, Typed& typed) {
 }
 
 /// References: options/object_reference.h.
-void add_objects(CLI::App& app, Typed& typed, const std::string& meaning) {
-    app.add_option("--object", typed.objects, meaning + ". 2: of the table, c3: cavity, v81275: voxel, or a name")->type_name("REF[@T]");
+CLI::Option* add_objects(CLI::App& app, Typed& typed, const std::string& meaning) {
+    return app.add_option("--object", typed.objects, meaning + ". 2: of the table, c3: cavity, v81275: voxel, or a name")
+        ->type_name("REF[@T]");
+}
+
+CLI::Option* add_shell(CLI::App& app, Typed& typed) {
+    return app.add_option("--shell", typed.shell, "outer: outer shells, inner: walls of cavities, all")->type_name("outer|inner|all");
+}
+
+CLI::Option* add_style(CLI::App& app, Typed& typed) {
+    return app.add_option("--style", typed.style, "compact: fewer triangles, full: an articulation point in every hit set")
+        ->type_name("compact|full");
+}
+
+CLI::Option* add_boundary(CLI::App& app, Typed& typed) {
+    return app.add_option("--boundary", typed.boundary, "closed: caps at the border of the volume, open: no caps")
+        ->type_name("closed|open");
+}
+
+CLI::Option* add_space(CLI::App& app, Typed& typed) {
+    return app.add_option("--space", typed.space, "Coordinates of medical volumes: lps (as Slicer), ras, or file: those of the volume")
+        ->type_name("lps|ras|file");
 }
 
 void tree_options(CLI::App& app, Arguments& arguments, Typed& typed) {
@@ -75,12 +95,10 @@ void extract_options(CLI::App& app, Arguments& arguments, Typed& typed) {
     add_number(app, "--min-wall", arguments.min_wall, "With --for-print: warn of walls thinner than this (0.8)")
         ->check(in_range(0.0, 1e6))
         ->type_name("MM");
-    app.add_option("--shell", typed.shell, "outer: outer shells, inner: walls of cavities, all")->type_name("outer|inner|all");
-    app.add_option("--style", typed.style, "compact: fewer triangles, full: an articulation point in every hit set")
-        ->type_name("compact|full");
-    app.add_option("--boundary", typed.boundary, "closed: caps at the border of the volume, open: no caps")->type_name("closed|open");
-    app.add_option("--space", typed.space, "Coordinates of medical volumes: lps (as Slicer), ras, or file: those of the volume")
-        ->type_name("lps|ras|file");
+    add_shell(app, typed);
+    add_style(app, typed);
+    add_boundary(app, typed);
+    add_space(app, typed);
     app.add_flag("--best", arguments.best, "The first object of the table at its best isovalue");
     add_output(app, arguments, ".ply .stl .obj .vtp .glb .vtkhdf", true);
 }
@@ -197,12 +215,27 @@ void phantom_options(CLI::App& app, Arguments& arguments, Typed& /*typed*/) {
     add_output(app, arguments, ".nrrd .npy .raw .mha .nii", false);
 }
 
-void verify_options(CLI::App& app, Arguments& arguments, Typed& /*typed*/) {
+void verify_options(CLI::App& app, Arguments& arguments, Typed& typed) {
     add_number(app, "--levels", arguments.levels, "Isovalues at which tree, cut and surface are compared")
         ->check(in_range(1, 100000))
         ->type_name("N");
     app.add_flag("--full", arguments.full, "Stores: every object at every isovalue, and the tree recomputed from the samples");
     add_number(app, "--seed", arguments.seed, "Stores: seed for drawing isovalues and objects (1)")->type_name("N");
+    CLI::Option* against = app.add_option("--against", typed.against, "MESH: compare it with the exact surface of this volume or store");
+    against->type_name("VOLUME");
+    const auto add = [&](CLI::Option* option) { option->needs(against); };
+    add(add_tau(app, typed, "With --against: isovalue of the exact surface"));
+    add(add_objects(app, typed, "With --against: the surface of these objects alone, each at an isovalue"));
+    add(app.add_option("--contour", typed.contours, "With --against: these contours alone")->type_name("REF[@T]"));
+    add(add_shell(app, typed));
+    add(add_style(app, typed));
+    add(add_boundary(app, typed));
+    add(add_space(app, typed));
+    CLI::Option* voxels = add_number(app, "--max-distance", arguments.max_distance,
+                                     "With --against: the mesh is to be at most so many voxels away, in both directions");
+    add(voxels->check(in_range(1e-6, 1e6))->type_name("VOXELS"));
+    CLI::Option* error = add_number(app, "--max-error", arguments.max_error, "The same as a length in the unit of the volume");
+    add(error->check(in_range(1e-300, 1e300))->type_name("LENGTH")->excludes(voxels));
 }
 
 }  // namespace

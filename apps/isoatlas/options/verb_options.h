@@ -14,7 +14,7 @@ struct Typed {
         polarity;
     std::vector<std::string> objects, contours, removed_names;
     TypedSelection selection;
-    std::string unit, value_unit, gaussian, no_data, labels = "auto";
+    std::string against, unit, value_unit, gaussian, no_data, labels = "auto";
     double tau = 0;
     std::int64_t skip = 0, time_step = 0, level = 0;
     PictureWords picture;

@@ -130,7 +130,7 @@ const std::vector<Verb> kVerbs{
      "MESH|VOLUME",
      "Check the guarantees of a surface file, a volume or a store; exit code 7 when one fails.",
      {"isoatlas verify bone.ply", "isoatlas verify scan.nii.gz --levels 20", "isoatlas verify scan.atlas --full",
-      "isoatlas verify part.stl --json"},
+      "isoatlas verify light.ply --against scan.nii.gz --tau 300 --max-distance 0.5", "isoatlas verify part.stl --json"},
      run_verify},
     {"table131",
      "VOLUME",

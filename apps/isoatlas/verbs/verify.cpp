@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include "data/against.h"
 #include "data/sides.h"
 #include "text/document.h"
 #include "text/terminal.h"
@@ -32,16 +33,20 @@ void print_json(Terminal& terminal, Json head, const std::vector<CheckResult>& c
     print(terminal, head);
 }
 
+const std::string& checked_file(const Arguments& arguments) { return arguments.mesh.empty() ? arguments.file : arguments.mesh; }
+
 /// One line per guarantee and a last one for all, ended by `of_what`; with --quiet only what fails and the last one.
 void print_text(Terminal& terminal, const Arguments& arguments, const std::vector<CheckResult>& checks, const std::string& of_what) {
     const auto all = static_cast<std::int64_t>(checks.size());
     std::int64_t failed = 0;
+    std::size_t width = 25;
+    for (const CheckResult& check : checks) width = std::max(width, check.name.size());
     for (const CheckResult& check : checks) {
         failed += check.holds ? 0 : 1;
         if (check.holds && arguments.quiet) continue;
-        terminal.out() << (check.holds ? "holds  " : "FAILS  ") << fmt::format("{:<25} ", check.name) << check.detail << '\n';
+        terminal.out() << (check.holds ? "holds  " : "FAILS  ") << fmt::format("{:<{}} ", check.name, width) << check.detail << '\n';
     }
-    terminal.out() << shown_name(arguments.file) << ": "
+    terminal.out() << shown_name(checked_file(arguments)) << ": "
                    << (failed == 0 ? "all " + counted(all, "guarantee") + " hold"
                                    : fmt::format("{} of {} FAIL", failed, counted(all, "guarantee")))
                    << of_what << '\n';
@@ -87,8 +92,13 @@ std::string sample_text(const AtlasVerifyOptions& options) {
 int run_verify(const Arguments& arguments, Terminal& terminal) {
     Json head = document("verify");
     std::vector<CheckResult> checks;
-    std::string of_what;
-    if (is_mesh(arguments.file)) {
+    std::string of_what, distances;
+    if (!arguments.mesh.empty()) {
+        AgainstSurface against = verify_against(arguments, terminal);
+        head = std::move(against.head);
+        checks = std::move(against.report.checks);
+        distances = against.distances;
+    } else if (is_mesh(arguments.file)) {
         head["what"] = "mesh";
         checks = check_mesh(arguments, head);
     } else {
@@ -109,9 +119,10 @@ int run_verify(const Arguments& arguments, Terminal& terminal) {
     if (arguments.json) {
         print_json(terminal, std::move(head), checks);
     } else {
+        if (!distances.empty()) terminal.out() << distances << '\n';
         print_text(terminal, arguments, checks, of_what);
     }
-    if (exit_code(checks) != 0) terminal.warn(arguments.file + ": a guarantee does not hold");
+    if (exit_code(checks) != 0) terminal.warn(checked_file(arguments) + ": a guarantee does not hold");
     return exit_code(checks);
 }
 

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <optional>
 
-#include "methods/surfaces/voxel_positions.h"
+#include "field/voxel_positions.h"
 
 namespace isoatlas {
 

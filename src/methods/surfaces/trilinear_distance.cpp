@@ -6,11 +6,11 @@
 #include "base/cancel.h"
 #include "base/parallel.h"
 #include "field/volume_view.h"
+#include "field/voxel_positions.h"
 #include "isoatlas/environment.h"
 #include "isoatlas/error.h"
 #include "methods/surfaces/level_set.h"
 #include "methods/surfaces/point_distances.h"
-#include "methods/surfaces/voxel_positions.h"
 
 namespace isoatlas {
 namespace {

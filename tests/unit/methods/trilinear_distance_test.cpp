@@ -4,9 +4,9 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
+#include "field/voxel_positions.h"
 #include "methods/surfaces/level_set.h"
 #include "methods/surfaces/point_distances.h"
-#include "methods/surfaces/voxel_positions.h"
 #include "oracle/mesh_checks.h"
 
 namespace oracle {
