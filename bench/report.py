@@ -2,7 +2,7 @@
 """Renders the tables of docs/performance.md from what the benchmarks wrote.
 
     report.py --self-test
-    report.py FOLDER [PAGE]   FOLDER holds what was measured: engine.json, extract.json, store.json, render.json, pages.json,
+    report.py FOLDER [PAGE]   FOLDER holds what was measured: engine.json, extract.json, store.json, render.json, pages.json, remote.json,
                               methods.json, methods-surfaces.json and scale-SECTION.json, those that are there; PAGE: docs/performance.md
 
 A table replaces the one of the same processor and vectors (AVX2, AVX-512); those of others stay. What misses its goal is in bold.
@@ -131,6 +131,10 @@ def python_misses(record, column):
     return column == "Python / C++" and record[column] > 1.05
 
 
+def remote_misses(record, column):
+    return column in ("page, s", "first surface, s") and record[column] > 2
+
+
 def page_misses(record, column):
     """Does it take longer than it may?"""
     goals = {"five pictures, s": 2, "all, s": 8} if record["volume"] == "headsq" else {"five pictures, s": 5, "all, s": 15}
@@ -231,6 +235,7 @@ TABLES = [
     ("formats", "formats", lambda document: generic_table(document["formats"], format_misses)),
     ("render", "render", lambda document: generic_table(document["pictures"], render_misses)),
     ("pages", "pages", lambda document: generic_table(document["pages"], page_misses)),
+    ("remote", "remote", lambda document: generic_table(document["remote"], remote_misses)),
     ("python-surfaces", "python", lambda document: generic_table(document["surfaces"], python_misses)),
     ("python-facts", "python", lambda document: generic_table(document["facts"])),
     ("methods", "methods", methods_table),

@@ -2,7 +2,7 @@
 # Measures what docs/performance.md reports and renders its tables. Takes three quarters of an hour on two processors; leave the machine
 # alone meanwhile.
 #
-#   scripts/bench.sh [--quick] [SECTION...]     sections: engine extract builds store formats render pages python methods scale; all of them by default
+#   scripts/bench.sh [--quick] [SECTION...]     sections: engine extract builds store formats render pages remote python methods scale; all of them by default
 #
 # --quick: 64^3 voxels, a run or two each, into build/bench/quick and a copy of the page there: do the scripts work? On a processor with
 # AVX-512 everything is measured twice, with its own vectors and with ISOATLAS_SIMD=avx2; once, where ISOATLAS_SIMD is set, be it empty.
@@ -16,7 +16,7 @@ if [[ ${1:-} == --quick ]]; then
     shift
 fi
 sections=("$@")
-if [[ $# -eq 0 ]]; then sections=(engine extract builds store formats render pages python methods scale); fi
+if [[ $# -eq 0 ]]; then sections=(engine extract builds store formats render pages remote python methods scale); fi
 programs=${ISOATLAS_BENCH_PROGRAMS:-}
 if [[ -z $programs ]]; then
     scripts/bootstrap.sh bench
@@ -61,6 +61,7 @@ measure() { # into the folder $1
             formats) python bench/formats/compare_libraries.py "$programs/bench_formats" "${formats[@]}" --cache "$out/volumes" --json "$to/formats.json" ;;
             render) compare render/compare_vtk.py bench_render ;;
             pages) compare page/first_pictures.py isoatlas ;;
+            remote) compare view/remote_pictures.py isoatlas ;;
             python) compare python/package.py bench_extract "${package[@]}" ;;
             methods)
                 "$programs/bench_methods" growth "${methods[@]}" "${common[@]}" --json "$to/methods.json"
@@ -68,7 +69,7 @@ measure() { # into the folder $1
                 python bench/machine.py "$to/methods-surfaces.json"
                 ;;
             scale) python bench/scale.py "$programs" "${scale[@]}" --cache "$out/volumes" --out "$to" ;;
-            *) echo "bench: no section '$section'; sections: engine extract builds store formats render pages python methods scale" >&2 && exit 2 ;;
+            *) echo "bench: no section '$section'; sections: engine extract builds store formats render pages remote python methods scale" >&2 && exit 2 ;;
         esac
         if [[ $section == scale ]]; then python bench/machine.py "$to"/scale-*.json; else python bench/machine.py "$to/$section.json"; fi
         python bench/report.py "$to" "$page"

@@ -25,10 +25,11 @@ struct RemoteOptions {
 
 /// What was fetched since use_remote_files().
 struct RemoteTraffic {
-    std::int64_t requests = 0;   ///< sent, repeated ones too
-    std::int64_t bytes = 0;      ///< of bodies that came
-    std::int64_t repeated = 0;   ///< requests sent again
-    std::int64_t from_disk = 0;  ///< bytes of the disk cache
+    std::int64_t requests = 0;     ///< sent, repeated ones too
+    std::int64_t round_trips = 0;  ///< at most so many of them waited for one another: those that are sent together count once
+    std::int64_t bytes = 0;        ///< of bodies that came
+    std::int64_t repeated = 0;     ///< requests sent again
+    std::int64_t from_disk = 0;    ///< bytes of the disk cache
 };
 
 /// From now on the process reads addresses, too. Called again: with other options, for files opened later.

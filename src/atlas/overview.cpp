@@ -1,5 +1,8 @@
 #include "atlas/overview.h"
 
+#include <array>
+#include <string_view>
+
 #include "atlas/access.h"
 #include "atlas/object_arrays.h"
 #include "atlas/tree_arrays.h"
@@ -12,6 +15,9 @@
 namespace isoatlas {
 namespace {
 
+/// What an overview is read from, and the counts of the samples, which are shown beside it.
+constexpr std::array<std::string_view, 7> kGroups{"objects", "isovalues", "dark", "dark_isovalues", "elements", "events", "census"};
+
 /// Are both tables stored, and whole?
 bool has_tables(const Container& store) {
     if (!has_objects(store) || !has_cavities(store)) return false;
@@ -22,6 +28,7 @@ bool has_tables(const Container& store) {
 }  // namespace
 
 Overview overview_of(const Atlas& atlas, const Context& context) {
+    AtlasAccess::store(atlas).fetch_groups(kGroups);
     if (has_tables(AtlasAccess::store(atlas)))
         return {atlas.objects({.top = 0}, context), atlas.cavities({.top = 0}, context), atlas.hierarchy(context)};
     const Volume whole = atlas.volume(context);

@@ -43,6 +43,29 @@ AxisScale axis_scale(double low, double high, std::span<const std::int64_t> coun
     return scale;
 }
 
+std::optional<AxisScale> axis_scale(double low, double high, std::span<const Bounds> at_least) {
+    if (at_least.empty()) return AxisScale{low, high, 0};
+    const double range = high - low;
+    std::size_t tenth = 0;
+    while (tenth + 1 < at_least.size() && edge_above(range, tenth + 1) <= range / 10) ++tenth;
+    // With n samples above the first edge: bent where at most n / 20 are beyond the tenth, then at the first edge with at most n / 2
+    // beyond.
+    constexpr double kFew = 0.05, kSlack = 1e-9;  // the slack: for rounding
+    const auto surely = [&](std::size_t edge, double part) {
+        return static_cast<double>(at_least[edge].max) <= (part - kSlack) * static_cast<double>(at_least[0].min);
+    };
+    const auto maybe = [&](std::size_t edge, double part) {
+        return static_cast<double>(at_least[edge].min) <= (part + kSlack) * static_cast<double>(at_least[0].max);
+    };
+    if (!maybe(tenth, kFew)) return AxisScale{low, high, 0};
+    if (!surely(tenth, kFew)) return std::nullopt;
+    for (std::size_t i = 1; i < at_least.size(); ++i) {
+        if (surely(i, 0.5)) return AxisScale{low, high, edge_above(range, i)};
+        if (maybe(i, 0.5)) return std::nullopt;
+    }
+    return std::nullopt;
+}
+
 AxisScale axis_scale(const VolumeView& volume) {
     return visit_samples(volume, [](auto samples) {
         const auto [min, max] = sample_range(samples);

@@ -2,10 +2,12 @@
 #pragma once
 
 #include <cmath>
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "field/volume_view.h"
+#include "isoatlas/bounds.h"
 
 namespace isoatlas {
 
@@ -31,6 +33,9 @@ struct AxisScale {
 /// counts: of samples between neighbours of axis_edges(), with both ends of the range. Bent when 19 of 20 samples (those next to the lowest
 /// value aside) lie in the lowest tenth of the range; the bend is about their median.
 [[nodiscard]] AxisScale axis_scale(double low, double high, std::span<const std::int64_t> counts);
+
+/// The same from bounds: at_least[i]: of the number of samples of at least axis_edges()[i]. Empty where they leave open which scale it is.
+[[nodiscard]] std::optional<AxisScale> axis_scale(double low, double high, std::span<const Bounds> at_least);
 
 /// From at most about 10^6 samples on a fixed pattern. Cost: O(voxels) for the range.
 [[nodiscard]] AxisScale axis_scale(const VolumeView& volume);

@@ -145,7 +145,9 @@ std::vector<HttpAnswer> HttpClient::get(const Address& address, std::span<const 
         }
         {
             const std::scoped_lock lock(mutex_);
-            traffic_.requests += static_cast<std::int64_t>(open.size());
+            const auto sent = static_cast<std::int64_t>(open.size()), at_once = std::int64_t{std::max(1, options_.connections)};
+            traffic_.requests += sent;
+            traffic_.round_trips += (sent + at_once - 1) / at_once;
             traffic_.bytes += bytes;
             traffic_.repeated += static_cast<std::int64_t>(again.size());
         }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <limits>
 
 #include "base/parallel.h"
 #include "codec/checksum.h"
@@ -21,6 +22,13 @@ static_assert(sizeof(RawHeader) == 56);
 constexpr std::size_t kCheckedHeader = 48;
 constexpr std::uint64_t kReadAtOnce = std::uint64_t{1} << 18;
 constexpr std::int64_t kLastBytes = 64 << 10;  ///< mostly with the trailer, the contents, and what lies before them
+
+/// Of a damaged table: empty, where it lies outside of any file.
+FileRange range_of(const StoredChunk& chunk) {
+    constexpr auto kMax = static_cast<std::uint64_t>(std::numeric_limits<std::int64_t>::max());
+    if (chunk.offset > kMax || chunk.bytes > kMax - chunk.offset) return {};
+    return {static_cast<std::int64_t>(chunk.offset), static_cast<std::int64_t>(chunk.offset + chunk.bytes)};
+}
 
 }  // namespace
 
@@ -101,6 +109,21 @@ void Container::fetch(std::span<const StoredArray* const> arrays) const {
         if (array->chunk == 0) ranges.push_back({array->offset, array->offset + array->bytes()});
     }
     fetch(std::move(ranges));
+    ranges.clear();
+    for (const StoredArray* array : arrays) {
+        if (array->chunk == 0) continue;
+        for (const StoredChunk& chunk : chunk_table(*array, 0, array->blocks())) ranges.push_back(range_of(chunk));
+    }
+    fetch(std::move(ranges));
+}
+
+void Container::fetch_groups(std::span<const std::string_view> groups) const {
+    std::vector<const StoredArray*> arrays;
+    for (const StoredArray& array : contents_.arrays) {
+        const std::string_view group = std::string_view(array.name).substr(0, array.name.find('/'));
+        if (std::ranges::find(groups, group) != groups.end()) arrays.push_back(&array);
+    }
+    fetch(arrays);
 }
 
 /// Ranges in any order, which may overlap or be empty.
@@ -238,17 +261,21 @@ void Container::read(const StoredArray& array, std::int64_t first, std::span<std
     }
 }
 
-std::vector<StoredChunk> Container::chunks_of(const StoredArray& array, std::int64_t first, std::int64_t last) const {
+std::vector<StoredChunk> Container::chunk_table(const StoredArray& array, std::int64_t first, std::int64_t last) const {
     std::vector<StoredChunk> chunks(static_cast<std::size_t>(last - first));
     read_fully(*file_, path_, array.checksums + 24 * first, std::as_writable_bytes(std::span(chunks)));
+    return chunks;
+}
+
+std::vector<StoredChunk> Container::chunks_of(const StoredArray& array, std::int64_t first, std::int64_t last) const {
+    std::vector<StoredChunk> chunks = chunk_table(array, first, last);
     const auto size = static_cast<std::uint64_t>(file_size_);
     for (std::size_t i = 0; i < chunks.size(); ++i) {
         if (chunks[i].offset > size || chunks[i].bytes > size - chunks[i].offset)
             damaged(array.name + ", chunk " + std::to_string(first + static_cast<std::int64_t>(i)), "it lies outside the file");
     }
     std::vector<FileRange> ranges;
-    for (const StoredChunk& chunk : chunks)
-        ranges.push_back({static_cast<std::int64_t>(chunk.offset), static_cast<std::int64_t>(chunk.offset + chunk.bytes)});
+    for (const StoredChunk& chunk : chunks) ranges.push_back(range_of(chunk));
     fetch(std::move(ranges));
     return chunks;
 }

@@ -65,8 +65,11 @@ public:
     void drop_pages() const { file_->drop_pages(); }
     /// Prefetches ranges of bytes of an array, ascending.
     void prefetch(const StoredArray& array, std::vector<FileRange> ranges) const;
-    /// Of a store on another machine: fetches whole arrays with their checksums, together, before they are read.
+    /// Of a store on another machine: fetches whole arrays with their checksums, together, before they are read. Two round trips, or one
+    /// where no array is in chunks.
     void fetch(std::span<const StoredArray* const> arrays) const;
+    /// The same for all arrays of groups ("objects" for "objects/id", ...); groups that the store does not have are ignored.
+    void fetch_groups(std::span<const std::string_view> groups) const;
 
     /// The JSON text of the contents in the file.
     [[nodiscard]] std::string contents_text() const;
@@ -96,6 +99,7 @@ private:
     void check_nothing_is_left_out() const;
     void check_inside(const StoredArray& array, std::int64_t first, std::size_t bytes) const;
     [[nodiscard]] std::vector<std::uint64_t> checksums_of(const StoredArray& array, std::int64_t first, std::int64_t last) const;
+    [[nodiscard]] std::vector<StoredChunk> chunk_table(const StoredArray& array, std::int64_t first, std::int64_t last) const;
     [[nodiscard]] std::vector<StoredChunk> chunks_of(const StoredArray& array, std::int64_t first, std::int64_t last) const;
     [[nodiscard]] std::vector<std::byte> read_chunk(const StoredArray& array, std::int64_t number, const StoredChunk& chunk) const;
     void read_chunks(const StoredArray& array, std::int64_t first, std::span<std::byte> out) const;

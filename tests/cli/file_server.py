@@ -23,6 +23,7 @@ class FileServer:
 
         class Handler(http.server.BaseHTTPRequestHandler):
             protocol_version = "HTTP/1.1"
+            disable_nagle_algorithm = True  # else head and body of an answer wait for each other
 
             def do_GET(self):
                 owner.answer(self)

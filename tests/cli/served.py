@@ -32,6 +32,8 @@ class Viewer:
         self.process = subprocess.Popen([harness.CLI, "view", *arguments, *browser.split(), "--json"], cwd=folder, stdout=subprocess.PIPE,
                                         stderr=subprocess.PIPE, text=True, **options)
         self.document = self.read_document()
+        if "error" in self.document:
+            raise RuntimeError(f"it ended with {self.process.wait()}: {self.document['error']['message']}")
         self.port = self.document["port"]
         self.token = wanted_token or token_file(self.port).read_text().strip()
 

@@ -1,7 +1,9 @@
 #!/usr/bin/env python3
 """Files on web servers: the same answers as from a file of this machine, or one message that says what is wrong. Faulty servers included."""
 import json
+import os
 import random
+import re
 import shutil
 import signal
 import subprocess
@@ -12,6 +14,9 @@ from pathlib import Path
 
 from file_server import FileServer
 from harness import CLI, CliTest
+from served import Viewer
+
+ROUND_TRIP, BYTES_A_SECOND = 0.02, 10e6  # of the line for which the first picture has a bound
 
 
 def small_pieces(seed):
@@ -264,6 +269,84 @@ class Remote(CliTest):
             self.assertEqual(process.wait(), 0)
             process.stdout.close()
         self.run_error(3, "serve", "field.nrrd", says="is not a folder")
+
+
+class FirstPicture(CliTest):
+    """`isoatlas view` of a store on a server: what the page asks for until its first object stands in the picture."""
+
+    phantoms = {"scan.nrrd": ["random-field", "--size", "128"]}
+
+    @classmethod
+    def setUpClass(cls):
+        super().setUpClass()
+        done = cls.start(["build", "scan.nrrd", "-o", "scan.atlas"])
+        assert done.returncode == 0, done.stderr
+        cls.local, _ = cls.first_picture("scan.atlas")
+        assert {status for status, _ in cls.local} == {200}, cls.local
+
+    @classmethod
+    def first_picture(cls, store):
+        """Status and body of each answer, in the order of web/src/viewer/main.ts, and what the viewer says of its traffic."""
+        environment = {**os.environ, "XDG_CACHE_HOME": str(cls.folder / "cache")}
+        viewer = Viewer(cls.folder, store, "--cache", "0", "-v", env=environment)
+        answers = []
+        try:
+            for path in ("/api/volumes", "/api/scene", "/api/atlas"):
+                status, _, body = viewer.ask(path)
+                answers.append((status, body.replace(str(store).encode(), b"STORE")))
+            if answers[-1][0] == 200:
+                page = json.loads(body)
+                first = next(entry for entry in page["entries"] if not entry["background"])
+                status, _, body = viewer.ask(f"/api/surface?tau={first['tau']}&object=v{first['id']}&max=20000")
+                answers.append((status, body))
+        finally:
+            code, said = viewer.stop()
+        assert code == 0, said
+        return answers, said
+
+    def test_few_round_trips_and_few_bytes(self):
+        with FileServer(self.folder) as server:
+            answers, said = self.first_picture(f"{server.address}/scan.atlas")
+            self.assertEqual(answers, self.local)
+            requests, round_trips = map(int, re.search(r"network: (\d+) requests in (\d+) round trips", said).groups())
+            self.assertEqual(requests, server.requests)
+            self.assertLessEqual(round_trips, requests)
+            # Two more: connections are opened before the first request, and again before the first several at a time.
+            self.assertLess((round_trips + 2) * ROUND_TRIP + server.bytes / BYTES_A_SECOND, 2)
+            self.assertLess(round_trips, 25)
+            self.assertLess(server.bytes, (self.folder / "scan.atlas").stat().st_size)
+
+    def test_answers_cut_short(self):
+        for seed in range(3):
+            with self.subTest(seed=seed), FileServer(self.folder, faults=small_pieces(seed)) as server:
+                self.assertEqual(self.first_picture(f"{server.address}/scan.atlas")[0], self.local)
+
+    def test_a_server_that_dies_in_the_middle(self):
+        """While the store is opened, while the data of the page are read, while the surface is."""
+        told = 0
+        for number in (3, 9, 13):
+            def dies(server, handler, path, request, number=number):
+                if request < number:
+                    return False
+                handler.close_connection = True
+                if request == number:
+                    server.send_file(handler, part=10)
+                else:
+                    handler.connection.close()
+                return True
+            with self.subTest(number=number), FileServer(self.folder, faults=dies) as server:
+                try:
+                    answers, _ = self.first_picture(f"{server.address}/scan.atlas")
+                except RuntimeError as error:  # it did not open
+                    answers = []
+                    self.assertRegex(str(error), "it ended with 3: .*no answer")
+                    told += 1
+                for answer, right in zip(answers, self.local):
+                    if answer != right:
+                        self.assertGreaterEqual(answer[0], 400)
+                        self.assertIn(b"no answer", answer[1])
+                        told += 1
+        self.assertGreaterEqual(told, 3)
 
 
 if __name__ == "__main__":

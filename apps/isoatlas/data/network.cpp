@@ -22,8 +22,8 @@ void use_network(const Arguments& arguments) {
 void tell_traffic(Terminal& terminal) {
     const RemoteTraffic traffic = remote_traffic();
     if (traffic.requests == 0 && traffic.from_disk == 0) return;
-    terminal.detail(fmt::format("network: {}, {}{}; {} from the cache on disk", counted(traffic.requests, "request"),
-                                bytes_text(static_cast<double>(traffic.bytes)),
+    terminal.detail(fmt::format("network: {} in {}, {}{}; {} from the cache on disk", counted(traffic.requests, "request"),
+                                counted(traffic.round_trips, "round trip"), bytes_text(static_cast<double>(traffic.bytes)),
                                 traffic.repeated > 0 ? fmt::format(" ({} repeated)", traffic.repeated) : "",
                                 bytes_text(static_cast<double>(traffic.from_disk))));
 }

@@ -51,6 +51,21 @@ TEST_F(PageAxis, HistogramCountsEverySampleOnce) {
     EXPECT_EQ(make_histogram(atlas_of<float>({2, 2}), {2, 2, 0}).counts.front(), 0);
 }
 
+TEST_F(PageAxis, TheCensusOfTheStoreIsSufficient) {
+    std::mt19937 random(4);
+    std::vector<float> samples(200000);
+    for (float& sample : samples) sample = std::normal_distribution<float>(5, 2)(random);
+    const Atlas atlas = atlas_of(samples);
+    const AxisScale scale = page_axis(atlas);
+    const Histogram histogram = make_histogram(atlas, scale);
+    EXPECT_EQ(atlas.reads().bricks, 0);
+    EXPECT_EQ(histogram.counts, atlas.histogram(histogram.edges));
+    EXPECT_GT(atlas.reads().bricks, 0);
+    const double wide = (scale.high - scale.low) / 160;
+    for (std::size_t i = 0; i < histogram.edges.size(); ++i)
+        EXPECT_NEAR(histogram.edges[i], scale.low + wide * static_cast<double>(i), wide / 4) << i;
+}
+
 TEST(ThinCurve, KeepsTheEndsAndFewPointsBetween) {
     SelectionCurve curve{"hypervolume", {}, {}, 500, 500};
     for (std::int64_t n = 1; n <= 100000; ++n) curve.threshold.push_back(1.0 / static_cast<double>(n)), curve.kept.push_back(n);

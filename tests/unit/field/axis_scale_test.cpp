@@ -3,7 +3,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <numeric>
+#include <optional>
+#include <random>
 
 namespace isoatlas {
 namespace {
@@ -35,6 +39,37 @@ TEST(AxisScale, OfSamplesIsThatOfTheirCounts) {
     const Volume constant = make_volume<float>({3, {3, 1, 1}}, std::vector<float>{7, 7, 7});
     EXPECT_EQ(axis_scale(VolumeView(constant)).bend, 0);
     EXPECT_TRUE(axis_edges(7, 7).empty());
+}
+
+TEST(AxisScale, OfBoundsIsThatOfTheCountsOrNone) {
+    std::mt19937 random(5);
+    int known = 0, bent = 0;
+    constexpr int kRounds = 300;
+    const std::vector<double> edges = axis_edges(0, 1);
+    for (int round = 0; round < kRounds; ++round) {
+        const double mean = std::pow(10, std::uniform_real_distribution<double>(-3, -0.5)(random));
+        std::vector<double> samples{1};
+        while (samples.size() < 2000) samples.push_back(std::min(1.0, std::exponential_distribution<double>(1 / mean)(random)));
+        const std::int64_t slack = round % 50;
+        std::vector<Bounds> bounds;
+        std::vector<std::int64_t> counts;
+        std::int64_t before = 0;
+        for (const double edge : edges) {
+            const std::int64_t above = std::ranges::count_if(samples, [&](double sample) { return sample >= edge; });
+            if (!bounds.empty()) counts.push_back(before - above);
+            bounds.push_back({std::max<std::int64_t>(above - slack, 0), above + slack});
+            before = above;
+        }
+        counts.back() += before;
+        const AxisScale right = axis_scale(0, 1, counts);
+        const std::optional<AxisScale> found = axis_scale(0, 1, bounds);
+        EXPECT_TRUE(!found || found->bend == right.bend) << mean << ", " << slack;
+        known += found.has_value() ? 1 : 0, bent += right.bend > 0 ? 1 : 0;
+    }
+    EXPECT_GT(known, kRounds / 6);
+    EXPECT_LT(known, kRounds);
+    EXPECT_GT(bent, kRounds / 6);
+    EXPECT_LT(bent, kRounds - kRounds / 6);
 }
 
 }  // namespace
