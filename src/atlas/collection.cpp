@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include "base/atomic_file.h"
+#include "base/file_system.h"
 #include "formats/common/file_access.h"
 #include "formats/common/json_file.h"
 #include "formats/volume/choose.h"
@@ -109,6 +110,7 @@ std::string store_name(const Channels& channels, std::int64_t volume) {
 
 bool is_collection(const std::string& path) {
     if (std::filesystem::path(path).filename() == kIndex) return true;
+    if (is_address(path)) return false;  // a server has no folders: the index is named
     return is_directory(path) && file_exists(index_of(path));
 }
 

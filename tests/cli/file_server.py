@@ -5,15 +5,18 @@
 import http.server
 import re
 import socket
+import ssl
 import threading
 import time
 from pathlib import Path
 
 
 class FileServer:
-    """faults: a function of (server, handler, path, number of the request) that may answer itself and then returns True."""
+    """faults: a function of (server, handler, path, number of the request) that may answer itself and then returns True.
+    certificate: path of a file with certificate and key; then it is https."""
 
-    def __init__(self, folder, faults=None, ranges=True, several=True, etags=True, round_trip=0.0, bytes_a_second=0.0, token=None):
+    def __init__(self, folder, faults=None, ranges=True, several=True, etags=True, round_trip=0.0, bytes_a_second=0.0, token=None,
+                 certificate=None):
         self.folder, self.faults, self.ranges, self.etags, self.token = Path(folder), faults, ranges, etags, token
         self.several = several
         self.round_trip, self.bytes_a_second = round_trip, bytes_a_second
@@ -39,7 +42,11 @@ class FileServer:
 
         self.server = Quiet(("127.0.0.1", 0), Handler)
         self.server.daemon_threads = True
-        self.address = f"http://127.0.0.1:{self.server.server_address[1]}"
+        if certificate is not None:
+            secure = ssl.SSLContext(ssl.PROTOCOL_TLS_SERVER)
+            secure.load_cert_chain(certificate)
+            self.server.socket = secure.wrap_socket(self.server.socket, server_side=True, do_handshake_on_connect=False)
+        self.address = f"http{'' if certificate is None else 's'}://127.0.0.1:{self.server.server_address[1]}"
         self.thread = threading.Thread(target=self.server.serve_forever, kwargs={"poll_interval": 0.02})
 
     def __enter__(self):

@@ -67,6 +67,14 @@ class Remote(CliTest):
             self.assert_same_surface(server)
             self.assertIn("/field.atlas", {path for path, _ in server.seen})
 
+    def test_an_ome_zarr_answers_as_its_folder_does(self):
+        self.run_ok("convert", "text.nii", "-o", "text.ome.zarr")
+        with FileServer(self.folder) as server:
+            remote, local = (self.run_json("objects", path) for path in (f"{server.address}/text.ome.zarr", "text.ome.zarr"))
+        for document in (remote, local):
+            document["volume"]["path"] = ""
+        self.assertEqual(remote, local)
+
     def test_servers_of_single_ranges_answer_as_well(self):
         def one_of_several(server, handler, path, number):
             several = handler.headers.get("Range", "").split(",")
@@ -347,6 +355,71 @@ class FirstPicture(CliTest):
                         self.assertIn(b"no answer", answer[1])
                         told += 1
         self.assertGreaterEqual(told, 3)
+
+
+@unittest.skipUnless(shutil.which("openssl"), "openssl is not installed")
+class Certificates(CliTest):
+    """https with an authority of our own: trusted where SSL_CERT_FILE names it, for the names in the certificate."""
+
+    phantoms = {"field.nrrd": ["random-field", "--size", "24"]}
+
+    @classmethod
+    def setUpClass(cls):
+        super().setUpClass()
+        for arguments in (["build", "field.nrrd", "-o", "field.atlas"], ["convert", "field.nrrd", "-o", "field.ome.zarr"],
+                          ["extract", "field.atlas", "--tau", "1", "-o", "local.ply"]):
+            done = cls.start(arguments)
+            assert done.returncode == 0, done.stderr
+        cls.openssl("req", "-x509", "-newkey", "rsa:2048", "-nodes", "-days", "2", "-subj", "/CN=Authority of a test", "-keyout", "ca.key",
+                    "-out", "ca.pem")
+        cls.right, cls.other = cls.certificate("right", "IP:127.0.0.1"), cls.certificate("other", "DNS:other.example")
+
+    @classmethod
+    def openssl(cls, *arguments):
+        subprocess.run(["openssl", *arguments], cwd=cls.folder, check=True, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE)
+
+    @classmethod
+    def certificate(cls, name, host):
+        cls.openssl("req", "-newkey", "rsa:2048", "-nodes", "-subj", f"/CN={name}", "-keyout", f"{name}.key", "-out", f"{name}.csr")
+        (cls.folder / f"{name}.ext").write_text(f"subjectAltName={host}\n")
+        cls.openssl("x509", "-req", "-days", "2", "-in", f"{name}.csr", "-CA", "ca.pem", "-CAkey", "ca.key", "-CAcreateserial", "-extfile",
+                    f"{name}.ext", "-out", f"{name}.crt")
+        path = cls.folder / f"{name}.pem"
+        path.write_text((cls.folder / f"{name}.crt").read_text() + (cls.folder / f"{name}.key").read_text())
+        return path
+
+    def ask(self, *arguments, authority="", token=""):
+        environment = {"XDG_CACHE_HOME": str(self.folder / "cache"), "SSL_CERT_FILE": authority, "ISOATLAS_BEARER_TOKEN": token}
+        return self.start(arguments, environment=environment)
+
+    def test_a_trusted_certificate(self):
+        with FileServer(self.folder, certificate=self.right, token="s3cret") as server:
+            trusted = {"authority": str(self.folder / "ca.pem"), "token": "s3cret"}
+            out = self.folder / "remote.ply"
+            done = self.ask("extract", f"{server.address}/field.atlas", "--tau", "1", "-o", out, **trusted)
+            self.assertEqual(done.returncode, 0, done.stderr)
+            self.assertEqual(out.read_bytes(), (self.folder / "local.ply").read_bytes())
+            done = self.ask("extract", f"{server.address}/field.ome.zarr", "--tau", "1", "-o", out, **trusted)
+            self.assertEqual(done.returncode, 0, done.stderr)
+            self.assertEqual(out.read_bytes(), (self.folder / "local.ply").read_bytes())
+
+    def test_certificates_that_are_not_trusted(self):
+        for certificate, authority in ((self.right, ""), (self.other, str(self.folder / "ca.pem")), (self.right, str(self.other))):
+            with FileServer(self.folder, certificate=certificate, token="s3cret") as server:
+                for name in ("field.atlas", "field.ome.zarr"):
+                    with self.subTest(certificate=certificate.name, authority=authority, name=name):
+                        done = self.ask("info", f"{server.address}/{name}", authority=authority, token="s3cret")
+                        self.assertEqual(done.returncode, 3, done.stderr)
+                        self.assertIn("it is not certain that this is 127.0.0.1", done.stderr)
+                        self.assertIn("SSL_CERT_FILE", done.stderr)
+                self.assertEqual(server.seen, [])  # no request, and no token, was sent
+
+    def test_a_file_of_authorities_that_is_not_there(self):
+        with FileServer(self.folder, certificate=self.right) as server:
+            done = self.ask("info", f"{server.address}/field.atlas", authority=str(self.folder / "none.pem"))
+            self.assertEqual(done.returncode, 3, done.stderr)
+            self.assertIn("none.pem", done.stderr)
+            self.assertEqual(server.seen, [])
 
 
 if __name__ == "__main__":
