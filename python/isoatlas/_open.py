@@ -82,8 +82,8 @@ def open(source: Any, *, spacing: Spacing = None, origin: Any = None, direction:
     dims, type, endian, skip, skip_rest, follow_links
         Of the reader of files, as the options of the command line; dims are (z, y, x).
     time_step, channel, series, level : optional
-        Which volume of a file that holds several: a number, of channels and DICOM series also a name. An array of many in one file is
-        named behind it, ``"file.h5:/entry/data"``. Without a choice the error lists what there is.
+        Which volume of a file that holds several: a number, of channels, DICOM series and images of an OME-TIFF (series) also a
+        name. An array of many in one file is named behind it, ``"file.h5:/entry/data"``. Without a choice the error lists what there is.
     missing : {"below", "above"} or float, optional
         What becomes of NaN and infinite samples, and of those equal to no_data; without it they are an error.
     no_data : float, optional

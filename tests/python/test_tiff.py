@@ -217,15 +217,52 @@ def test_entities_are_not_expanded(tmp_path):
     expect(tmp_path / "a.ome.tif", array[0], channel="0")
 
 
-def test_damaged_files(tmp_path):
+@pytest.mark.parametrize("mode, photometric", [("RGB", 2), ("YCbCr", 6), ("L", 1)])
+def test_jpeg_in_tiff(mode, photometric, tmp_path):
+    """What is read are the samples that Pillow decodes; of colours that are stored as brightness and differences of colour, too."""
+    from PIL import Image, features
+    if not features.check("libtiff"):
+        pytest.skip("Pillow has no libtiff")
+    z, y, x = np.meshgrid(np.arange(3), np.arange(40), np.arange(53), indexing="ij")
+    colours = np.stack([4 * x + z, 5 * y, 255 - 3 * x - y], -1).clip(0, 255).astype("u1")
+    pages = [Image.fromarray(page[..., 0] if mode == "L" else page).convert(mode) for page in colours]
+    pages[0].save(tmp_path / "v.tif", save_all=True, append_images=pages[1:], compression="jpeg", quality=90)
+    with tifffile.TiffFile(tmp_path / "v.tif") as file:
+        assert len(file.pages) == 3 and file.pages[0].compression == 7
+        assert int(file.pages[0].photometric) == photometric
+    with Image.open(tmp_path / "v.tif") as file:
+        decoded = []
+        for page in range(3):
+            file.seek(page)
+            decoded.append(np.asarray(file.convert("L" if mode == "L" else "RGB")))
+    decoded = np.stack(decoded)
+    if mode == "L":
+        expect(tmp_path / "v.tif", decoded)
+        return
+    assert abs(decoded.astype(int) - colours).mean() < 8  # it is this picture
+    for i, colour in enumerate(["red", "green", "blue"]):
+        expect(tmp_path / "v.tif", np.ascontiguousarray(decoded[..., i]), channel=colour)
+    wanted = ((sum(weight * decoded[..., i].astype("int64") for i, weight in enumerate(BT601)) + 32768) >> 16).astype("u1")
+    atlas = expect(tmp_path / "v.tif", wanted)
+    assert any("luminance" in note for note in atlas.info["notes"])
+
+
+def write_pyramid(path, array, **options):
+    with tifffile.TiffWriter(path, ome=True) as file:
+        file.write(array, photometric="minisblack", subifds=1, metadata={"axes": "ZYX"}, **options)
+        file.write(array[:, ::2, ::2], photometric="minisblack", subfiletype=1, **options)
+
+
+@pytest.mark.parametrize("options", [{}, {"compression": "zlib"}, {"tile": (16, 16)}], ids=str)
+def test_truncated_pyramids(options, tmp_path):
+    """The level that is read is whole, or refused; a level that was cut off is not offered, and said."""
     if not CLI:
         pytest.skip("ISOATLAS_CLI does not name the command line")
-    array = samples("uint16", (3, 6, 7))
-    with tifffile.TiffWriter(tmp_path / "v.ome.tif", ome=True) as file:
-        file.write(array, photometric="minisblack", subifds=1, metadata={"axes": "ZYX"})
-        file.write(array[:, ::2, ::2], photometric="minisblack", subfiletype=1)
+    array = samples("uint16", (3, 20, 23))
+    write_pyramid(tmp_path / "v.ome.tif", array, **options)
     content = (tmp_path / "v.ome.tif").read_bytes()
-    for size in range(0, len(content) - 64, 64):
+    told = 0
+    for size in [*range(0, len(content), 61), len(content) - 1]:
         (tmp_path / "cut.ome.tif").write_bytes(content[:size])
         try:
             atlas = isoatlas.open(tmp_path / "cut.ome.tif")
@@ -235,9 +272,21 @@ def test_damaged_files(tmp_path):
         assert np.array_equal(atlas.volume, array)  # what is cut off belongs to the pyramid
         try:
             reduced = isoatlas.open(tmp_path / "cut.ome.tif", level=1).volume
-        except isoatlas.Error:
+        except isoatlas.Error as error:
+            assert error.reason == "no_such_level"
+            assert any("reduced image" in note and "damaged" in note for note in atlas.info["notes"])
+            told += 1
             continue
         assert np.array_equal(reduced, array[:, ::2, ::2])
+        assert not any("damaged" in note for note in atlas.info["notes"])
+    assert told > 0
+
+
+def test_damaged_files(tmp_path):
+    if not CLI:
+        pytest.skip("ISOATLAS_CLI does not name the command line")
+    write_pyramid(tmp_path / "v.ome.tif", samples("uint16", (3, 6, 7)))
+    content = (tmp_path / "v.ome.tif").read_bytes()
     with tifffile.TiffFile(tmp_path / "v.ome.tif") as file:
         first = file.pages[0].offset
     cyclic = bytearray(content)

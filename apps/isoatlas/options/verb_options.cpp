@@ -271,8 +271,9 @@ void add_reading(CLI::App& app, Arguments& arguments, Typed& typed) {
     app.add_option("--channel", typed.channel, "Which channel of several: its name, or its number from 0")
         ->type_name("NAME|N")
         ->group(group);
-    app.add_option("--series", typed.series, "Which series of a DICOM folder: its identifier, or its number from 0")
-        ->type_name("UID|N")
+    app.add_option("--series", typed.series,
+                   "Which series of a DICOM folder, or image of an OME-TIFF: its identifier or name, or its number from 0")
+        ->type_name("NAME|N")
         ->group(group);
     add_number(app, "--level", typed.level, "Which level of a resolution pyramid, 0 (default) the finest")->type_name("N")->group(group);
     app.add_option("--box", typed.box, "Only the samples FIRST:END (END not included) of each axis")

@@ -168,6 +168,7 @@ TiffPage TiffFile::page_at(std::uint64_t directory, std::int64_t number, std::in
     if (is_checked) {
         handle_->check_entries(handle_->directory_entries());
         handle_->check_page(page);
+        if (level > 0 && handle_->is_cut_off()) handle_->corrupt(handle_->where, "the file ends before its pixels do");
     }
     return page;
 }

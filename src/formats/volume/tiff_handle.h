@@ -48,6 +48,8 @@ struct TiffFile::Handle {
     [[nodiscard]] ValueType sample_type() const;
     void check_page(const TiffPage& page) const;
     void check_pieces(const TiffPage& page) const;
+    /// Does a strip or tile end beyond the file? Of a page itself, decoding it tells.
+    [[nodiscard]] bool is_cut_off() const;
 
     // tiff_pieces.cpp
     void decode(const TiffPage& page, std::uint32_t number, std::span<std::byte> out);

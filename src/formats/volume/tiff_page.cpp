@@ -148,4 +148,15 @@ void TiffFile::Handle::check_pieces(const TiffPage& page) const {
     }
 }
 
+bool TiffFile::Handle::is_cut_off() const {
+    const std::int64_t pieces = TIFFIsTiled(tiff) != 0 ? TIFFNumberOfTiles(tiff) : TIFFNumberOfStrips(tiff);
+    const auto end = static_cast<std::uint64_t>(client.file->size());
+    for (std::int64_t piece = 0; piece < pieces; ++piece) {
+        const auto number = static_cast<std::uint32_t>(piece);
+        const std::uint64_t offset = TIFFGetStrileOffset(tiff, number), count = TIFFGetStrileByteCount(tiff, number);
+        if (offset > end || count > end - offset) return true;
+    }
+    return false;
+}
+
 }  // namespace isoatlas

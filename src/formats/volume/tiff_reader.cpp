@@ -1,6 +1,7 @@
 // A VolumeReader of slices that are pages of TIFF files.
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "base/check.h"
 #include "formats/volume/choose.h"
@@ -93,24 +94,45 @@ private:
     std::vector<std::byte> pixels_;
 };
 
+/// A reduced image of a page; nullopt: it cannot be read.
+std::optional<TiffPage> reduced_image(TiffFile& file, std::uint64_t directory, std::int64_t number, std::int64_t level) {
+    try {
+        return file.page_at(directory, number, level, true);
+    } catch (const Error& error) {
+        if (error.kind() != ErrorKind::input && error.kind() != ErrorKind::unsupported) throw;
+        return std::nullopt;
+    }
+}
+
 /// Reduced images of the first slice, up to the first that is none of a pyramid; their pages, the slice itself first.
-std::vector<TiffPage> levels_of(TiffFile& file, const TiffPage& page, std::vector<std::string>& notes) {
+std::vector<TiffPage> levels_of_page(TiffFile& file, const TiffPage& page, std::vector<std::string>& notes) {
     std::vector<TiffPage> levels{page};
     for (std::int64_t level = 1; level <= page.reduced_images; ++level) {
-        try {
-            TiffPage reduced = file.page_at(page.directory, page.number, level, true);
-            const TiffPage& finer = levels.back();
-            const bool is_level =
-                reduced.type == page.type && reduced.pixel == page.pixel && reduced.width <= finer.width && reduced.height <= finer.height;
-            if (!is_level) break;
-            levels.push_back(std::move(reduced));
-        } catch (const Error& error) {
-            if (error.kind() != ErrorKind::input && error.kind() != ErrorKind::unsupported) throw;
-            break;
-        }
+        std::optional<TiffPage> reduced = reduced_image(file, page.directory, page.number, level);
+        const TiffPage& finer = levels.back();
+        const bool is_level = reduced && reduced->type == page.type && reduced->pixel == page.pixel && reduced->width <= finer.width &&
+                              reduced->height <= finer.height;
+        if (!is_level) break;
+        levels.push_back(std::move(*reduced));
     }
     const std::int64_t left = page.reduced_images + 1 - std::ssize(levels);
     if (left > 0) notes.push_back(std::to_string(left) + " reduced images are not levels of this one, or are damaged; they are ignored");
+    return levels;
+}
+
+/// Levels that all slices of the first file have: others may be cut off, while the slices themselves are whole.
+std::vector<TiffPage> levels_of(TiffFile& file, const TiffPage& page, const TiffVolume& volume, std::vector<std::string>& notes) {
+    std::vector<TiffPage> levels = levels_of_page(file, page, notes);
+    for (const TiffSlice& slice : volume.slices) {
+        for (std::size_t level = 1; level < levels.size() && slice.file == 0; ++level) {
+            const std::optional<TiffPage> reduced = reduced_image(file, slice.directory, slice.number, static_cast<std::int64_t>(level));
+            if (reduced && reduced->same_shape(levels[level])) continue;
+            notes.push_back("the reduced image of level " + std::to_string(level) + " of page " + std::to_string(slice.number) +
+                            " is missing or damaged, perhaps the file is truncated: there are no levels from " + std::to_string(level) +
+                            " on, the pages themselves are complete");
+            levels.resize(level);
+        }
+    }
     return levels;
 }
 
@@ -162,7 +184,7 @@ std::unique_ptr<VolumeReader> make_tiff_reader(VolumeInfo info, TiffVolume volum
     ISOATLAS_CHECK(!volume.slices.empty() && volume.slices[0].file == 0);
     const std::int64_t slices = std::ssize(volume.slices);
     std::vector<TiffPage> levels{page};
-    if (volume.slices[0].raw < 0) levels = levels_of(*first, page, info.notes);
+    if (volume.slices[0].raw < 0) levels = levels_of(*first, page, volume, info.notes);
     const std::int64_t level = choose_level(info.path, options, std::ssize(levels));
     const TiffPage& chosen = levels[static_cast<std::size_t>(level)];
     info.encoding = TiffFile::encoding(chosen.compression);
