@@ -12,6 +12,7 @@
 #include "formats/volume/data_files.h"
 #include "formats/volume/formats.h"
 #include "formats/volume/key_lines.h"
+#include "formats/volume/named_type.h"
 #include "formats/volume/sample_reader.h"
 
 namespace isoatlas {
@@ -22,18 +23,13 @@ constexpr std::array<std::string_view, 13> kBovKeys{"data_file",    "data_size",
                                                     "divide_brick", "data_bricklets", "data_components"};
 
 ValueType type_of_bov(const KeyLines& header) {
-    static constexpr std::array<std::pair<std::string_view, ValueType>, 8> kTypes{{{"byte", ValueType::u8},
-                                                                                   {"short", ValueType::i16},
-                                                                                   {"int", ValueType::i32},
-                                                                                   {"integer", ValueType::i32},
-                                                                                   {"float", ValueType::f32},
-                                                                                   {"real", ValueType::f32},
-                                                                                   {"double", ValueType::f64},
-                                                                                   {"doubles", ValueType::f64}}};
+    static constexpr NamedType kTypes[] = {{"byte", ValueType::u8},     {"short", ValueType::i16},  {"int", ValueType::i32},
+                                           {"integer", ValueType::i32}, {"float", ValueType::f32},  {"real", ValueType::f32},
+                                           {"double", ValueType::f64},  {"doubles", ValueType::f64}};
     std::string name = lower(header.text("data_format"));
     if (name.empty()) name = "byte";  // as in VisIt
-    for (const auto& [spelling, type] : kTypes) {
-        if (name == spelling || name == std::string(spelling) + "s") return type;
+    for (const std::string& spelling : {name, name.ends_with('s') ? name.substr(0, name.size() - 1) : name}) {
+        if (const std::optional<ValueType> type = find_type(kTypes, spelling)) return *type;
     }
     header.fail(ErrorKind::unsupported, "DATA_FORMAT", in_quotes(header.text("data_format")) + " samples are not supported",
                 "BYTE, SHORT, INT, FLOAT or DOUBLE", "convert the file, or correct the header");

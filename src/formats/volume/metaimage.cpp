@@ -4,7 +4,6 @@
 // Physical space: MetaImage coordinates are LPS by the convention of ITK, but files without AnatomicalOrientation often come from
 // outside medicine, so the space is "LPS" when that field names an orientation and "unknown" otherwise.
 #include <algorithm>
-#include <array>
 #include <bit>
 #include <cmath>
 #include <utility>
@@ -15,28 +14,21 @@
 #include "formats/volume/data_files.h"
 #include "formats/volume/formats.h"
 #include "formats/volume/metaimage_header.h"
+#include "formats/volume/named_type.h"
 #include "formats/volume/sample_reader.h"
 
 namespace isoatlas {
 namespace {
 
 ValueType sample_type(const MetaHeader& header) {
-    static constexpr std::array<std::pair<std::string_view, ValueType>, 11> kTypes = {{{"met_char", ValueType::i8},
-                                                                                       {"met_ascii_char", ValueType::i8},
-                                                                                       {"met_uchar", ValueType::u8},
-                                                                                       {"met_short", ValueType::i16},
-                                                                                       {"met_ushort", ValueType::u16},
-                                                                                       {"met_int", ValueType::i32},
-                                                                                       {"met_uint", ValueType::u32},
-                                                                                       {"met_long", ValueType::i32},  // 4 bytes in MetaIO
-                                                                                       {"met_ulong", ValueType::u32},
-                                                                                       {"met_float", ValueType::f32},
-                                                                                       {"met_double", ValueType::f64}}};
+    static constexpr NamedType kTypes[] = {
+        {"met_char", ValueType::i8},   {"met_ascii_char", ValueType::i8}, {"met_uchar", ValueType::u8},
+        {"met_short", ValueType::i16}, {"met_ushort", ValueType::u16},    {"met_int", ValueType::i32},
+        {"met_uint", ValueType::u32},  {"met_long", ValueType::i32},  // 4 bytes in MetaIO
+        {"met_ulong", ValueType::u32}, {"met_float", ValueType::f32},     {"met_double", ValueType::f64}};
     if (!header.has("elementtype")) header.fail(ErrorKind::input, "ElementType", "is missing", "MET_UCHAR, MET_SHORT, MET_FLOAT, ...");
     const std::string name = lower(header.text("elementtype"));
-    for (const auto& [spelling, type] : kTypes) {
-        if (name == spelling) return type;
-    }
+    if (const std::optional<ValueType> type = find_type(kTypes, name)) return *type;
     const bool known = name == "met_long_long" || name == "met_ulong_long" || name == "met_other" || name == "met_string" ||
                        name == "met_none" || (name.starts_with("met_") && name.ends_with("_array"));
     header.fail(known ? ErrorKind::unsupported : ErrorKind::input, "ElementType",

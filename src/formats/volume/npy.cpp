@@ -4,12 +4,12 @@
 // (nz, ny, nx) is a volume of size nx x ny x nz: array[z, y, x]. An array in Fortran order has its FIRST axis fastest: shape
 // (nx, ny, nz) is a volume of size nx x ny x nz: array[x, y, z]. The samples are taken in the order of the file in both cases.
 #include <algorithm>
-#include <array>
 #include <bit>
 #include <utility>
 
 #include "formats/common/text.h"
 #include "formats/volume/formats.h"
+#include "formats/volume/named_type.h"
 #include "formats/volume/sample_reader.h"
 
 namespace isoatlas {
@@ -109,26 +109,19 @@ NpyHeader read_npy_header(const std::string& path) {
 }
 
 void set_type(const NpyHeader& header, VolumeInfo& info) {
-    static constexpr std::array<std::pair<std::string_view, ValueType>, 9> kTypes = {{{"u1", ValueType::u8},
-                                                                                      {"b1", ValueType::u8},
-                                                                                      {"i1", ValueType::i8},
-                                                                                      {"u2", ValueType::u16},
-                                                                                      {"i2", ValueType::i16},
-                                                                                      {"u4", ValueType::u32},
-                                                                                      {"i4", ValueType::i32},
-                                                                                      {"f4", ValueType::f32},
-                                                                                      {"f8", ValueType::f64}}};
+    static constexpr NamedType kTypes[] = {{"u1", ValueType::u8},  {"b1", ValueType::u8},  {"i1", ValueType::i8},
+                                           {"u2", ValueType::u16}, {"i2", ValueType::i16}, {"u4", ValueType::u32},
+                                           {"i4", ValueType::i32}, {"f4", ValueType::f32}, {"f8", ValueType::f64}};
     std::string name = header.type;
     char order = '=';
     if (!name.empty() && std::string_view("<>=|").find(name[0]) != std::string_view::npos) {
         order = name[0];
         name.erase(0, 1);
     }
-    for (const auto& [spelling, type] : kTypes) {
-        if (name != spelling) continue;
-        if (order == '|' && size_of(type) > 1) fail(header.path, ErrorKind::input, "header", "'descr' has no byte order", "'<' or '>'");
-        info.type = type;
-        info.big_endian = size_of(type) > 1 && (order == '>' || (order == '=' && std::endian::native == std::endian::big));
+    if (const std::optional<ValueType> type = find_type(kTypes, name)) {
+        if (order == '|' && size_of(*type) > 1) fail(header.path, ErrorKind::input, "header", "'descr' has no byte order", "'<' or '>'");
+        info.type = *type;
+        info.big_endian = size_of(*type) > 1 && (order == '>' || (order == '=' && std::endian::native == std::endian::big));
         if (name == "b1") info.notes.push_back("booleans are read as 0 and 1 of type uint8");
         return;
     }

@@ -1,7 +1,6 @@
 // NRRD, versions 1 to 5, attached (.nrrd) and detached (.nhdr). Format: http://teem.sourceforge.net/nrrd/format.html
 //
 // Key/value pairs calibration_slope and calibration_intercept (of isoatlas) are the calibration; NRRD itself has no such field.
-#include <array>
 #include <bit>
 #include <cmath>
 #include <utility>
@@ -10,6 +9,7 @@
 #include "formats/volume/axes.h"
 #include "formats/volume/data_files.h"
 #include "formats/volume/formats.h"
+#include "formats/volume/named_type.h"
 #include "formats/volume/nrrd_geometry.h"
 #include "formats/volume/nrrd_header.h"
 #include "formats/volume/sample_reader.h"
@@ -18,7 +18,7 @@ namespace isoatlas {
 namespace {
 
 ValueType sample_type(const NrrdHeader& header) {
-    static constexpr std::array<std::pair<std::string_view, ValueType>, 31> kTypes = {{
+    static constexpr NamedType kTypes[] = {
         {"signed char", ValueType::i8},
         {"int8", ValueType::i8},
         {"int8_t", ValueType::i8},
@@ -50,12 +50,10 @@ ValueType sample_type(const NrrdHeader& header) {
         {"float32", ValueType::f32},
         {"double", ValueType::f64},
         {"float64", ValueType::f64},
-    }};
+    };
     if (!header.has("type")) header.fail(ErrorKind::input, "type", "is missing", "the type of the samples");
     const std::string name = lower(header.text("type"));
-    for (const auto& [spelling, type] : kTypes) {
-        if (name == spelling) return type;
-    }
+    if (const std::optional<ValueType> type = find_type(kTypes, name)) return *type;
     const bool known = name.find("long") != std::string::npos || name.find("int64") != std::string::npos || name == "block";
     header.fail(known ? ErrorKind::unsupported : ErrorKind::input, "type",
                 in_quotes(name) + (known ? " samples are not supported" : " is not a NRRD type"), "8 to 32 bit integers, float or double",

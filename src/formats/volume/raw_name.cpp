@@ -1,8 +1,7 @@
-#include <array>
 #include <filesystem>
-#include <utility>
 
 #include "formats/common/text.h"
+#include "formats/volume/named_type.h"
 #include "formats/volume/raw_description.h"
 
 namespace isoatlas {
@@ -25,7 +24,7 @@ std::optional<std::vector<std::int64_t>> parse_sizes(std::string_view word) {
 }  // namespace
 
 std::optional<ValueType> find_value_type(std::string_view name) {
-    static constexpr std::array<std::pair<std::string_view, ValueType>, 27> kNames = {{
+    static constexpr NamedType kNames[] = {
         {"uint8", ValueType::u8},  {"u8", ValueType::u8},      {"uchar", ValueType::u8},   {"byte", ValueType::u8},
         {"int8", ValueType::i8},   {"i8", ValueType::i8},      {"schar", ValueType::i8},   {"uint16", ValueType::u16},
         {"u16", ValueType::u16},   {"ushort", ValueType::u16}, {"int16", ValueType::i16},  {"i16", ValueType::i16},
@@ -33,12 +32,8 @@ std::optional<ValueType> find_value_type(std::string_view name) {
         {"int32", ValueType::i32}, {"i32", ValueType::i32},    {"int", ValueType::i32},    {"float32", ValueType::f32},
         {"f32", ValueType::f32},   {"float", ValueType::f32},  {"single", ValueType::f32}, {"float64", ValueType::f64},
         {"f64", ValueType::f64},   {"double", ValueType::f64}, {"real64", ValueType::f64},
-    }};
-    const std::string wanted = lower(name);
-    for (const auto& [spelling, type] : kNames) {
-        if (wanted == spelling) return type;
-    }
-    return std::nullopt;
+    };
+    return find_type(kNames, lower(name));
 }
 
 RawDescription description_from_name(const std::string& path) {
