@@ -69,6 +69,8 @@ test|python3-tifffile|independent reader and writer of TIFF files
 test|chromium|opens the page
 test|python3-pil|independent reader and writer of pictures
 test|python3-h5py|independent reader of stores, writer of HDF5 volumes
+test|hdf5-filter-plugin|independent filters of HDF5: LZ4, bzip2
+test|hdf5-filter-plugin-blosc-serial|independent filter of HDF5: Blosc
 test|python3-netcdf4|independent writer of NetCDF files
 test|python3-networkx|independent reader of the trees we write
 test|debootstrap|a bare Debian, where the package is installed

@@ -45,6 +45,74 @@ def test_every_filter_of_hdf5(filters, chunks, tmp_path):
     assert same(array, atlas.volume)
 
 
+BLOSC, LZ4, ZSTD, BZIP2 = 32001, 32004, 32015, 307
+PLUGINS = {BLOSC: "hdf5-filter-plugin-blosc-serial", LZ4: "hdf5-filter-plugin", BZIP2: "hdf5-filter-plugin"}
+
+
+@pytest.mark.parametrize("shuffle", [False, True])
+@pytest.mark.parametrize("filter, settings", [
+    *((BLOSC, (0, 0, 0, 0, level, bits, compressor)) for level, bits, compressor in ((5, 1, 0), (9, 0, 1), (1, 2, 1), (5, 1, 2), (5, 2, 4), (5, 1, 5), (0, 1, 0))),
+    (LZ4, ()), (LZ4, (64,)), (LZ4, (1 << 20,)), (BZIP2, (9,))], ids=str)
+def test_filters_of_plugins(filter, settings, shuffle, tmp_path):
+    """Written by the plugins of Debian, which h5py loads."""
+    if not h5py.h5z.filter_avail(filter):
+        pytest.skip(f"{PLUGINS[filter]} is not installed")
+    rng = np.random.default_rng(5)
+    for array in (rng.integers(0, 50, (7, 9, 8)).astype("u2"), rng.random((20, 21, 22)).astype("f4"), np.zeros((5, 6, 7), "i4")):
+        with h5py.File(tmp_path / "v.h5", "w") as file:
+            file.create_dataset("v", data=array, chunks=(5, 6, 7), shuffle=shuffle, compression=filter, compression_opts=settings)
+        assert same(array, read(tmp_path / "v.h5").volume)
+
+
+def with_stored_chunk(path, shape, filter, settings, chunk):
+    """An array of one chunk of uint16 that is there already: HDF5 itself need not know the filter."""
+    with h5py.File(path, "w") as file:
+        creation = h5py.h5p.create(h5py.h5p.DATASET_CREATE)
+        creation.set_chunk(shape)
+        creation.set_filter(filter, h5py.h5z.FLAG_OPTIONAL, settings)
+        set = h5py.h5d.create(file.id, b"v", h5py.h5t.STD_U16LE, h5py.h5s.create_simple(shape), creation)
+        set.write_direct_chunk((0, 0, 0), chunk)
+
+
+def test_zstandard(tmp_path):
+    codecs = pytest.importorskip("numcodecs")
+    array = np.random.default_rng(6).integers(0, 50, (7, 9, 8)).astype("<u2")
+    chunk = codecs.Zstd(level=3).encode(array)
+    with_stored_chunk(tmp_path / "v.h5", array.shape, ZSTD, (3,), chunk)
+    assert same(array, read(tmp_path / "v.h5").volume)
+    for damaged in (chunk[:-1], chunk[:20], chunk + b"more", codecs.Zstd().encode(array[:-1]), codecs.Zstd().encode(np.zeros(1 << 20, "u1"))):
+        with_stored_chunk(tmp_path / "d.h5", array.shape, ZSTD, (3,), damaged)
+        with pytest.raises(isoatlas.Error):
+            np.asarray(read(tmp_path / "d.h5").volume)
+
+
+@pytest.mark.parametrize("filter", [BLOSC, LZ4])
+def test_damaged_chunks_of_plugins(filter, tmp_path):
+    """Every prefix is refused; a byte that is damaged may give other samples, but never more or fewer of them."""
+    if not h5py.h5z.filter_avail(filter):
+        pytest.skip(f"{PLUGINS[filter]} is not installed")
+    array = np.random.default_rng(7).integers(0, 3, (4, 5, 6)).astype("<u2")
+    with h5py.File(tmp_path / "v.h5", "w") as file:
+        set = file.create_dataset("v", data=array, chunks=array.shape, compression=filter)
+        file.flush()
+        chunk = set.id.read_direct_chunk((0, 0, 0))[1]
+        settings = set.id.get_create_plist().get_filter(0)[2]
+    with_stored_chunk(tmp_path / "v.h5", array.shape, filter, settings, chunk)
+    assert same(array, read(tmp_path / "v.h5").volume)
+    for size in range(1, len(chunk), 3):
+        with_stored_chunk(tmp_path / "d.h5", array.shape, filter, settings, chunk[:size])
+        with pytest.raises(isoatlas.Error):
+            np.asarray(read(tmp_path / "d.h5").volume)
+    for place in range(len(chunk)):
+        damaged = bytearray(chunk)
+        damaged[place] ^= 0x55
+        with_stored_chunk(tmp_path / "d.h5", array.shape, filter, settings, bytes(damaged))
+        try:
+            assert np.asarray(read(tmp_path / "d.h5").volume).shape == array.shape
+        except isoatlas.Error:
+            pass
+
+
 def test_samples_that_were_never_written(tmp_path):
     with h5py.File(tmp_path / "v.h5", "w") as file:
         set = file.create_dataset("v", (4, 5, 6), "i4", chunks=(2, 2, 2), fillvalue=7, maxshape=(None, None, None))
