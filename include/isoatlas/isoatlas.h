@@ -45,6 +45,7 @@
 #include "isoatlas/isovalue.h"
 #include "isoatlas/label_page.h"
 #include "isoatlas/labels.h"
+#include "isoatlas/level_of_detail.h"
 #include "isoatlas/locate.h"
 #include "isoatlas/measures.h"
 #include "isoatlas/method_info.h"

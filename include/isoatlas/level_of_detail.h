@@ -19,18 +19,24 @@ struct SimplificationOptions {
     std::int64_t triangles = 0;  ///< not fewer than this
 };
 
+struct SimplifiedSurface {
+    Surface surface;
+    double distance;  ///< no point of either surface is farther from the other, in SimplificationOptions::unit
+};
+
 /// Fewer triangles by edge collapses, cheapest first (quadric error: Garland and Heckbert, Surface simplification using quadric error
 /// metrics, 1997), each only where
-/// (a) the link condition holds (Dey, Edelsbrunner, Guha, Nekhayev: Topology preserving edge contraction, 1999): every component keeps its
+/// (a) the link condition holds (Dey, Edelsbrunner, Guha, Nekhayev: Topology preserving edge contraction, 1999): every contour keeps its
 ///     genus, none joins another;
-/// (b) the points and the middles of the triangles of `surface` stay within max_distance of the result, and every point of the result
-///     within max_distance of `surface`;
+/// (b) every point of `surface`, also inside its triangles, stays within max_distance of the result, and every point of the result within
+///     max_distance of `surface`;
 /// (c) no triangle meets another but in common points, and no point lies in the space that is swept: contours stay nested as they are;
-/// (d) points of the caps and of open rims stay in the faces of the volume where they are.
-/// docs/theory/11-level-of-detail.md has the proofs. Points are a subset of those before, with their normals and ids. `geometry` and
-/// `extent` are those of the volume. Throws Error: usage (max_distance not positive, fewer than 0 triangles), resource (2^32 points or
-/// more), cancelled. The same bytes for any number of threads. Cost: about 5 us and 130 bytes a triangle.
-[[nodiscard]] Surface simplify_surface(const Surface& surface, const Geometry& geometry, const Extent& extent,
-                                       const SimplificationOptions& options = {}, const Context& context = {});
+/// (d) points of caps and rims stay in the faces of the volume where they are.
+/// docs/theory/11-level-of-detail.md has the proofs. Normals are those of the surface at the nearest place, ids those of the points.
+/// `geometry` and `extent` are those of the volume. Curves (2D) are returned as they are. Throws Error: usage (max_distance not positive,
+/// a negative number of triangles, axes that do not span space), resource (2^30 triangles or more), cancelled. The same bytes for any
+/// number of threads. Cost: some 20 us and 250 bytes a triangle.
+[[nodiscard]] SimplifiedSurface simplify_surface(const Surface& surface, const Geometry& geometry, const Extent& extent,
+                                                 const SimplificationOptions& options = {}, const Context& context = {});
 
 }  // namespace isoatlas

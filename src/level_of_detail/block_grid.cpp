@@ -4,7 +4,7 @@
 
 namespace isoatlas {
 
-BlockGrid::BlockGrid(const Box& box, double edge, double shift) : low_(box.low), edge_(edge) {
+BlockGrid::BlockGrid(const BoundingBox& box, double edge, double shift) : low_(box.low), edge_(edge) {
     for (std::size_t axis = 0; axis < 3; ++axis) {
         low_[axis] -= shift;
         count_[axis] = std::isinf(edge) ? 1 : static_cast<std::int64_t>(std::floor((box.high[axis] - low_[axis]) / edge)) + 1;

@@ -16,7 +16,7 @@ public:
     using Place = std::array<std::int64_t, 3>;
 
     /// Cubes of this edge that fill `box` and begin `shift` before it, 0 to edge; an infinite edge: one block.
-    BlockGrid(const Box& box, double edge, double shift);
+    BlockGrid(const BoundingBox& box, double edge, double shift);
 
     [[nodiscard]] std::int64_t blocks() const { return count_[0] * count_[1] * count_[2]; }
     /// The block in which a point lies; points outside the box lie in no block. Ascends with each coordinate: points between two points of a

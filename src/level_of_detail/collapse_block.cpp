@@ -37,7 +37,8 @@ public:
     BlockCollapser(SurfaceState& state, const Block& block, const CollapseLimits& limits)
         : state_(state), mesh_(state.mesh), block_(block), limits_(limits), distance_(state.distance), embedding_(state) {}
 
-    std::int64_t run() {
+    std::int64_t run(const CallerLooks& stop_if_asked) {
+        constexpr int kLook = 1024;  ///< edges between looks
         embedding_.set_triangles(block_.inside, block_.crossing);
         for (const std::uint32_t t : block_.inside) {
             for (std::uint32_t k = 0; k < 3; ++k) add_edge(3 * t + k);
@@ -46,7 +47,8 @@ public:
         is_heap_ = true;
         const auto before = static_cast<std::int64_t>(block_.inside.size());
         left_ = before;
-        while (!heap_.empty() && left_ > limits_.triangles) {
+        for (int edges = 0; !heap_.empty() && left_ > limits_.triangles; ++edges) {
+            if (edges % kLook == 0) stop_if_asked();
             std::ranges::pop_heap(heap_, is_later);
             const Entry entry = heap_.back();
             heap_.pop_back();
@@ -197,9 +199,9 @@ private:
 
 }  // namespace
 
-std::int64_t collapse_block(SurfaceState& state, const Block& block, const CollapseLimits& limits) {
+std::int64_t collapse_block(SurfaceState& state, const Block& block, const CollapseLimits& limits, const CallerLooks& stop_if_asked) {
     BlockCollapser collapser(state, block, limits);
-    return collapser.run();
+    return collapser.run(stop_if_asked);
 }
 
 }  // namespace isoatlas

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 
+#include "base/cancel.h"
 #include "level_of_detail/block_grid.h"
 #include "level_of_detail/rules.h"
 
@@ -14,6 +15,6 @@ struct CollapseLimits {
 };
 
 /// Collapses edges between points that are not locked, cheapest first, as long as one can be. Returns how many triangles disappeared.
-std::int64_t collapse_block(SurfaceState& state, const Block& block, const CollapseLimits& limits);
+std::int64_t collapse_block(SurfaceState& state, const Block& block, const CollapseLimits& limits, const CallerLooks& stop_if_asked);
 
 }  // namespace isoatlas

@@ -7,7 +7,7 @@
 
 namespace isoatlas {
 
-Box EmbeddingRule::triangle_box(std::uint32_t t) const {
+BoundingBox EmbeddingRule::triangle_box(std::uint32_t t) const {
     const auto [a, b, c] = state_.mesh.triangle(t);
     return box_of(state_.points[a], state_.points[b], state_.points[c]);
 }
@@ -15,7 +15,7 @@ Box EmbeddingRule::triangle_box(std::uint32_t t) const {
 void EmbeddingRule::set_triangles(std::span<const std::uint32_t> inside, std::span<const std::uint32_t> crossing) {
     constexpr double kEdgesOfCell = 1.5;
     if (inside.empty()) return;
-    Box all;
+    BoundingBox all;
     double lengths = 0;
     for (const std::uint32_t t : inside) {
         const auto [a, b, c] = state_.mesh.triangle(t);
@@ -61,7 +61,7 @@ bool EmbeddingRule::holds(const Star& star) {
         for (const std::uint32_t point : other) {
             if (point == star.gone || point == star.kept) return true;  // of the star itself
         }
-        const Box box = triangle_box(t);
+        const BoundingBox box = triangle_box(t);
         if (!box.meets(swept_)) return true;
         for (const Part& part : parts_) {
             if (box.meets(part.box) && triangles_cross<std::uint32_t>(state_.points, part.corners, other)) return false;

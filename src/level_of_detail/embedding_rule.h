@@ -23,17 +23,17 @@ private:
     struct Part {  ///< a triangle after
         std::uint32_t number;
         std::array<std::uint32_t, 3> corners;
-        Box box, before;
+        BoundingBox box, before;
     };
     void make_parts(const Star& star);
     [[nodiscard]] bool meets_itself() const;
     [[nodiscard]] bool is_swept(const Star& star, std::uint32_t point) const;
-    [[nodiscard]] Box triangle_box(std::uint32_t t) const;
+    [[nodiscard]] BoundingBox triangle_box(std::uint32_t t) const;
 
     const SurfaceState& state_;
     TriangleGrid grid_;
     std::vector<Part> parts_;
-    Box swept_{};
+    BoundingBox swept_{};
 };
 
 }  // namespace isoatlas

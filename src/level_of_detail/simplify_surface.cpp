@@ -7,6 +7,8 @@
 
 #include "base/cancel.h"
 #include "base/parallel.h"
+#include "geometry/deviation.h"
+#include "geometry/triangles.h"
 #include "isoatlas/error.h"
 #include "isoatlas/level_of_detail.h"
 #include "level_of_detail/collapse_block.h"
@@ -129,17 +131,52 @@ void require_options(const Surface& surface, const SimplificationOptions& option
     }
 }
 
+/// tolerance: the distance that decides which costs are small.
+void run_passes(SurfaceState& state, const SimplificationOptions& options, double tolerance, const Context& context) {
+    auto left = static_cast<std::int64_t>(state.mesh.triangles());
+    const std::vector<Pass> all = passes(state.frame->step(), tolerance);
+    for (std::size_t i = 0; i < all.size(); ++i) {
+        const Pass& pass = all[i];
+        stop_if_cancelled(context);
+        context.report("simplify", static_cast<int>(i), static_cast<int>(all.size()), 0);
+        const std::int64_t least = std::isinf(pass.edge) ? options.triangles : 2 * options.triangles;
+        if (left <= least) continue;
+        BoundingBox bounds;
+        for (const Vec3& p : state.scaled) bounds.add(p);
+        const BlockGrid grid(bounds, pass.edge, pass.shift);
+        const std::vector<Block> blocks = blocks_of(state, grid);
+        std::vector<std::int64_t> gone(blocks.size(), 0);
+        const CallerLooks stop_if_asked(context);
+        for_each_block(context.threads, static_cast<std::int64_t>(blocks.size()), [&](std::int64_t block) {
+            stop_if_asked();
+            const auto inside = static_cast<double>(blocks[block].inside.size());
+            const auto kept = static_cast<std::int64_t>(inside * static_cast<double>(least) / static_cast<double>(left));
+            gone[block] = collapse_block(state, blocks[block], {.max_cost = pass.max_cost, .triangles = kept}, stop_if_asked);
+        });
+        left -= std::accumulate(gone.begin(), gone.end(), std::int64_t{0});
+    }
+}
+
+double measured_distance(const Surface& surface, const SurfaceFrame& frame, const Surface& simplified, const Context& context) {
+    constexpr double kTolerance = 1e-3;  // of a step
+    Array<Vec3> scaled(simplified.points.size());
+    for (std::size_t i = 0; i < scaled.size(); ++i) scaled[i] = frame.scaled(simplified.points[i]);
+    return measure_deviation({frame.scaled(), surface.triangles}, {scaled, simplified.triangles}, {.tolerance = kTolerance * frame.step()},
+                             context)
+        .upper();
+}
+
 }  // namespace
 
-Surface simplify_surface(const Surface& surface, const Geometry& geometry, const Extent& extent, const SimplificationOptions& options,
-                         const Context& context) {
+SimplifiedSurface simplify_surface(const Surface& surface, const Geometry& geometry, const Extent& extent,
+                                   const SimplificationOptions& options, const Context& context) {
     require_options(surface, options);
     const auto full = static_cast<std::int64_t>(surface.triangles.size());
-    if (full == 0 || full <= options.triangles) return surface;
+    if (full <= options.triangles || surface.triangles.empty()) return {surface, 0};
     const SurfaceFrame frame(surface, geometry, extent, options.unit);
     const bool is_bounded = std::isfinite(options.max_distance);
-    const OriginalSurface original(frame.scaled(), surface.triangles,
-                                   is_bounded ? std::max(frame.step(), options.max_distance) : frame.step());
+    const double cell = is_bounded ? std::max(frame.step(), options.max_distance) : frame.step();
+    const OriginalSurface original(frame.scaled(), surface.triangles, cell);
     SurfaceState state = state_of(surface, frame);
     if (is_bounded) {
         state.distance.original = &original;
@@ -147,25 +184,10 @@ Surface simplify_surface(const Surface& surface, const Geometry& geometry, const
         state.distance.to_original.assign(surface.triangles.size(), 0);
         state.distance.tracked = TrackedPieces(surface.triangles.size());
     }
-    std::int64_t left = full;
-    const double tolerance = is_bounded ? options.max_distance : frame.step();
-    for (const Pass& pass : passes(frame.step(), tolerance)) {
-        stop_if_cancelled(context);
-        const std::int64_t least = std::isinf(pass.edge) ? options.triangles : 2 * options.triangles;
-        if (left <= least) continue;
-        Box bounds;
-        for (const Vec3& p : state.scaled) bounds.add(p);
-        const BlockGrid grid(bounds, pass.edge, pass.shift);
-        const std::vector<Block> blocks = blocks_of(state, grid);
-        std::vector<std::int64_t> gone(blocks.size(), 0);
-        for_each_block(context.threads, static_cast<std::int64_t>(blocks.size()), [&](std::int64_t i) {
-            const auto inside = static_cast<double>(blocks[i].inside.size());
-            const auto kept = static_cast<std::int64_t>(inside * static_cast<double>(least) / static_cast<double>(left));
-            gone[i] = collapse_block(state, blocks[i], {.max_cost = pass.max_cost, .triangles = kept});
-        });
-        left -= std::accumulate(gone.begin(), gone.end(), std::int64_t{0});
-    }
-    return remaining(surface, state, original);
+    run_passes(state, options, is_bounded ? options.max_distance : frame.step(), context);
+    SimplifiedSurface result{remaining(surface, state, original), options.max_distance};
+    if (!is_bounded) result.distance = measured_distance(surface, frame, result.surface, context);
+    return result;
 }
 
 }  // namespace isoatlas

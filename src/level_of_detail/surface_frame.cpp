@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "geometry/orientation.h"
 #include "isoatlas/error.h"
 #include "mesh/place_hits.h"
 
@@ -53,6 +54,10 @@ std::array<double, 4> planes_of(const Geometry& geometry, const Extent& extent, 
 
 }  // namespace
 
+Vec3 SurfaceFrame::scaled(const Vec3& point) const {
+    return unit_ == DistanceUnit::physical ? point : times(to_voxels_, minus(point, origin_));
+}
+
 SurfaceFrame::SurfaceFrame(const Surface& surface, const Geometry& geometry, const Extent& extent, DistanceUnit unit)
     : unit_(unit), origin_(geometry.origin) {
     if (determinant(geometry.direction) == 0) throw Error(ErrorKind::usage, {.what = "the axes of the geometry do not span space"});
@@ -61,14 +66,15 @@ SurfaceFrame::SurfaceFrame(const Surface& surface, const Geometry& geometry, con
     for (std::size_t axis = 0; axis < 3; ++axis) step[axis] = step_of(geometry, axis);
     step_ = unit == DistanceUnit::voxel ? 1 : std::min({step[0], step[1], step[2]});
     for (std::size_t row = 0; row < 3; ++row) {
-        for (std::size_t axis = 0; axis < 3; ++axis) to_space_[row][axis] = geometry.direction[row][axis] * step[axis];
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            to_space_[row][axis] = geometry.direction[row][axis] * step[axis];
+            to_voxels_[row][axis] = to_axes[row][axis] / step[row];
+        }
     }
     scaled_.resize(surface.points.size());
     faces_.assign(surface.points.size(), 0);
     for (std::size_t i = 0; i < scaled_.size(); ++i) {
-        Vec3 from_origin = surface.points[i];
-        for (std::size_t axis = 0; axis < 3; ++axis) from_origin[axis] -= geometry.origin[axis];
-        const Vec3 along = times(to_axes, from_origin);
+        const Vec3 along = times(to_axes, minus(surface.points[i], origin_));
         for (std::size_t axis = 0; axis < 3; ++axis) {
             const std::array<double, 4> planes = planes_of(geometry, extent, axis);
             for (std::size_t plane = 0; plane < 4; ++plane) {
@@ -76,7 +82,7 @@ SurfaceFrame::SurfaceFrame(const Surface& surface, const Geometry& geometry, con
                 faces_[i] = static_cast<std::uint16_t>(faces_[i] | (is_in_plane ? 1U << (4 * axis + plane) : 0U));
             }
         }
-        scaled_[i] = unit == DistanceUnit::physical ? surface.points[i] : Vec3{along[0] / step[0], along[1] / step[1], along[2] / step[2]};
+        scaled_[i] = scaled(surface.points[i]);
     }
 }
 

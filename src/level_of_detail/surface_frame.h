@@ -22,6 +22,7 @@ public:
     [[nodiscard]] double step() const { return step_; }
     /// Of every point a bit for each face of the volume and each cap in whose plane it lies.
     [[nodiscard]] const Array<std::uint16_t>& faces() const { return faces_; }
+    [[nodiscard]] Vec3 scaled(const Vec3& point) const;
     /// The point of the surface that lies at a scaled one.
     [[nodiscard]] Vec3 physical(const Vec3& scaled) const {
         if (unit_ == DistanceUnit::physical) return scaled;
@@ -37,7 +38,7 @@ private:
     double step_ = 1;
     DistanceUnit unit_;
     Vec3 origin_;
-    Mat3 to_space_{};  ///< of scaled coordinates in voxels
+    Mat3 to_space_{}, to_voxels_{};
     Array<std::uint16_t> faces_;
 };
 

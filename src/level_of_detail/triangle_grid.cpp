@@ -2,7 +2,7 @@
 
 namespace isoatlas {
 
-void TriangleGrid::clear(const Box& box, double cell) {
+void TriangleGrid::clear(const BoundingBox& box, double cell) {
     constexpr std::int64_t kMaxCells = std::int64_t{1} << 24;
     low_ = box.low;
     std::int64_t count = 0;
@@ -19,7 +19,7 @@ void TriangleGrid::clear(const Box& box, double cell) {
     entries_.clear();
 }
 
-TriangleGrid::Range TriangleGrid::range_of(const Box& box) const {
+TriangleGrid::Range TriangleGrid::range_of(const BoundingBox& box) const {
     Range range{};
     for (std::size_t axis = 0; axis < 3; ++axis) {
         const auto cell_at = [&](double coordinate) {
@@ -31,7 +31,7 @@ TriangleGrid::Range TriangleGrid::range_of(const Box& box) const {
     return range;
 }
 
-void TriangleGrid::add(std::uint32_t triangle, const Box& box, const Box* before) {
+void TriangleGrid::add(std::uint32_t triangle, const BoundingBox& box, const BoundingBox* before) {
     const Range range = range_of(box);
     const Range old = before ? range_of(*before) : Range{{1, 1, 1}, {0, 0, 0}};
     std::array<std::int64_t, 3> cell{};

@@ -14,8 +14,8 @@
 
 namespace isoatlas {
 
-[[nodiscard]] inline Box box_of(const Vec3& a, const Vec3& b, const Vec3& c) {
-    Box box;
+[[nodiscard]] inline BoundingBox box_of(const Vec3& a, const Vec3& b, const Vec3& c) {
+    BoundingBox box;
     box.add(a);
     box.add(b);
     box.add(c);
@@ -25,14 +25,14 @@ namespace isoatlas {
 class TriangleGrid {
 public:
     /// Of triangles that meet `box`, in cells of about this edge.
-    void clear(const Box& box, double cell);
-    void add(std::uint32_t triangle, const Box& box) { add(triangle, box, nullptr); }
+    void clear(const BoundingBox& box, double cell);
+    void add(std::uint32_t triangle, const BoundingBox& box) { add(triangle, box, nullptr); }
     /// A triangle that had the box `before`.
-    void move(std::uint32_t triangle, const Box& before, const Box& now) { add(triangle, now, &before); }
+    void move(std::uint32_t triangle, const BoundingBox& before, const BoundingBox& now) { add(triangle, now, &before); }
 
     /// Calls use(triangle) for all triangles in the cells that meet `box`, for some more than once, until one returns false.
     template <class Use>
-    bool for_each(const Box& box, const Use& use) const {
+    bool for_each(const BoundingBox& box, const Use& use) const {
         const Range range = range_of(box);
         std::array<std::int64_t, 3> cell{};
         for (cell[2] = range.first[2]; cell[2] <= range.last[2]; ++cell[2]) {
@@ -60,11 +60,11 @@ private:
     struct Entry {
         std::uint32_t triangle, next;
     };
-    [[nodiscard]] Range range_of(const Box& box) const;
+    [[nodiscard]] Range range_of(const BoundingBox& box) const;
     [[nodiscard]] std::size_t place(const std::array<std::int64_t, 3>& cell) const {
         return static_cast<std::size_t>((cell[2] * cells_[1] + cell[1]) * cells_[0] + cell[0]);
     }
-    void add(std::uint32_t triangle, const Box& box, const Box* before);
+    void add(std::uint32_t triangle, const BoundingBox& box, const BoundingBox* before);
 
     Vec3 low_{};
     double per_cell_ = 1;

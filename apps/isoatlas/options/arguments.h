@@ -29,6 +29,13 @@ struct InputChoices {
     std::optional<MissingPolicy> missing_of_low;  ///< where a fill value was found: for objects of low values
 };
 
+/// extract: --simplify, --simplify-error, --triangles
+struct SimplificationArguments {
+    std::optional<double> voxels, length;
+    std::optional<std::int64_t> triangles;
+    [[nodiscard]] bool is_asked_for() const { return voxels || length || triangles; }
+};
+
 struct Arguments {
     std::string verb;
     std::string file;               ///< VOLUME, MESH, or the name of a phantom, verb or shell
@@ -75,6 +82,7 @@ struct Arguments {
     bool thickness = false;                      ///< measure
     bool split = false, for_print = false;       ///< extract
     std::optional<double> min_wall;              ///< extract --for-print: millimetres
+    SimplificationArguments simplification{};    ///< extract
     std::vector<ObjectReference> removed_names;  ///< name
     bool best = false, all = false, zones = false, list = false, cavities = false, both = false;
     std::int64_t top = 0;  ///< 0: not given

@@ -95,6 +95,16 @@ void extract_options(CLI::App& app, Arguments& arguments, Typed& typed) {
     add_number(app, "--min-wall", arguments.min_wall, "With --for-print: warn of walls thinner than this (0.8)")
         ->check(in_range(0.0, 1e6))
         ->type_name("MM");
+    CLI::Option* voxels = add_number(app, "--simplify", arguments.simplification.voxels,
+                                     "Fewer triangles, at most so many voxels from the exact surface and back, with the same topology");
+    voxels->check(in_range(1e-6, 1e6))->type_name("VOXELS");
+    add_number(app, "--simplify-error", arguments.simplification.length, "The same as a length in the unit of the volume")
+        ->check(in_range(1e-300, 1e300))
+        ->type_name("LENGTH")
+        ->excludes(voxels);
+    add_number(app, "--triangles", arguments.simplification.triangles, "Simplify to this number of triangles, not fewer")
+        ->check(in_range(4, 1'000'000'000))
+        ->type_name("N");
     add_shell(app, typed);
     add_style(app, typed);
     add_boundary(app, typed);

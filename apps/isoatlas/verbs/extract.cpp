@@ -6,6 +6,7 @@
 #include "data/chosen_surfaces.h"
 #include "data/print_surface.h"
 #include "data/sides.h"
+#include "data/simplify.h"
 #include "text/document.h"
 #include "text/interrupt.h"
 #include "text/terminal.h"
@@ -126,6 +127,7 @@ struct Written {
     };
     std::vector<Part> parts{};
     std::optional<Printing> print{};
+    std::optional<Simplification> simplification{};
 };
 
 Json part_json(const Written::Part& part) {
@@ -159,6 +161,7 @@ Json to_json(const Arguments& arguments, Source& source, const Written& written)
     json["space"] = space_in_file(arguments.output, written.space, file_options(arguments));
     json["warnings"] = written.warnings;
     json["notes"] = written.notes;
+    json["simplification"] = written.simplification ? simplification_json(*written.simplification) : Json(nullptr);
     json["print"] = written.print ? printing_json(*written.print) : Json(nullptr);
     Json& parts = json["surfaces"] = Json::array();
     for (const Written::Part& part : written.parts) parts.push_back(part_json(part));
@@ -191,6 +194,7 @@ void print_text(const Arguments& arguments, Terminal& terminal, Source& source, 
                            << counted(static_cast<std::int64_t>(written.parts.size()), "object") << ", " << closed << unit << ", "
                            << connectivity << '\n';
     }
+    if (written.simplification) terminal.out() << simplification_text(*written.simplification) << '\n';
     if (written.print) terminal.out() << printing_text(*written.print) << '\n';
     const std::string file = arguments.split ? written.parts[0].output : arguments.output;
     if (written.counts.triangles > 0 && written.counts.closed && !file.ends_with(".vtkhdf"))
@@ -203,11 +207,16 @@ Written write_one(const Arguments& arguments, Source& source, const std::vector<
     for (const ChosenObject& object : chosen) (object.is_contour ? options.contours : options.objects).push_back(object.voxel);
     Surface surface = source.extract(chosen.empty() ? source.tau() : chosen[0].tau, options);
     if (surface.points.empty()) nothing_written(arguments);
+    std::optional<Simplification> simplification;
+    if (arguments.simplification.is_asked_for()) {
+        simplify(surface, source.info(), simplification.emplace(simplification_of(arguments)), source.context());
+    }
     std::optional<Printing> print;
     std::vector<std::string> notes;
     if (arguments.for_print) print_surface(surface, print.emplace(printing_of(arguments)), notes, source.context());
     Written written{.tau = surface.tau, .reported_tau = surface.reported_tau, .space = surface.space, .unit = surface.unit};
     written.print = print, written.notes = std::move(notes);
+    written.simplification = simplification;
     written.counts = count(surface);
     if (chosen.size() == 1) written.parts.push_back({chosen[0], written.counts, surface.reported_tau, arguments.output});
     const WritingGuard guard;
@@ -231,7 +240,12 @@ Written write_several(const Arguments& arguments, Sides& sides, const std::vecto
         }
     };
     if (arguments.for_print) written.print = printing_of(arguments);
+    if (arguments.simplification.is_asked_for()) written.simplification = simplification_of(arguments);
     for (ChosenSurface& one : surfaces) {
+        if (written.simplification) {
+            Source& source = sides.source(one.object);
+            simplify(one.named.surface, source.info(), *written.simplification, source.context());
+        }
         if (written.print) print_surface(one.named.surface, *written.print, written.notes, sides.main().context());
         const std::string output = arguments.split ? split_name(arguments.output, one.object) : arguments.output;
         const Counts counts = count(one.named.surface);
