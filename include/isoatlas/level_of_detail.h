@@ -32,7 +32,7 @@ struct SimplifiedSurface {
 ///     max_distance of `surface`;
 /// (c) no triangle meets another but in common points, and no point lies in the space that is swept: contours stay nested as they are;
 /// (d) points of caps and rims stay in the faces of the volume where they are.
-/// docs/theory/11-level-of-detail.md has the proofs. Normals are those of the surface at the nearest place, ids those of the points.
+/// docs/theory/10-level-of-detail.md has the proofs. Normals are those of the surface at the nearest place, ids those of the points.
 /// `geometry` and `extent` are those of the volume. Curves (2D) are returned as they are. Throws Error: usage (max_distance not positive,
 /// a negative number of triangles, axes that do not span space), resource (2^30 triangles or more), cancelled. The same bytes for any
 /// number of threads. Cost: some 20 us and 250 bytes a triangle.

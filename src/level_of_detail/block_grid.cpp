@@ -11,8 +11,8 @@ BlockGrid::BlockGrid(const BoundingBox& box, double edge, double shift) : low_(b
     }
 }
 
-std::vector<Block> blocks_of(SurfaceState& state, const BlockGrid& grid) {
-    std::vector<Block> blocks(static_cast<std::size_t>(grid.blocks()));
+std::vector<SurfaceBlock> blocks_of(SurfaceState& state, const BlockGrid& grid) {
+    std::vector<SurfaceBlock> blocks(static_cast<std::size_t>(grid.blocks()));
     std::ranges::fill(state.locked, std::uint8_t{0});
     for (std::uint32_t t = 0; t < state.mesh.triangles(); ++t) {
         if (!state.mesh.has_triangle(t)) continue;
@@ -25,7 +25,7 @@ std::vector<Block> blocks_of(SurfaceState& state, const BlockGrid& grid) {
             }
         }
         if (first == last) {
-            Block& block = blocks[grid.number(first)];
+            SurfaceBlock& block = blocks[grid.number(first)];
             block.grid = &grid, block.place = first;
             block.inside.push_back(t);
             continue;
@@ -37,7 +37,7 @@ std::vector<Block> blocks_of(SurfaceState& state, const BlockGrid& grid) {
             }
         }
     }
-    std::erase_if(blocks, [](const Block& block) { return block.inside.empty(); });
+    std::erase_if(blocks, [](const SurfaceBlock& block) { return block.inside.empty(); });
     return blocks;
 }
 

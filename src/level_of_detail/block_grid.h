@@ -19,8 +19,8 @@ public:
     BlockGrid(const BoundingBox& box, double edge, double shift);
 
     [[nodiscard]] std::int64_t blocks() const { return count_[0] * count_[1] * count_[2]; }
-    /// The block in which a point lies; points outside the box lie in no block. Ascends with each coordinate: points between two points of a
-    /// block lie in it.
+    /// The block in which a point lies; points outside the box lie in no block. Ascends with each coordinate: points between two points of
+    /// a block lie in it.
     [[nodiscard]] Place of(const Vec3& p) const {
         if (std::isinf(edge_)) return {};
         Place block{};
@@ -37,7 +37,7 @@ private:
     Place count_{};
 };
 
-struct Block {
+struct SurfaceBlock {
     const BlockGrid* grid;
     BlockGrid::Place place;
     std::vector<std::uint32_t> inside;    ///< triangles whose points lie in the block
@@ -46,6 +46,6 @@ struct Block {
 };
 
 /// The blocks that have triangles; the points of triangles that reach beyond their block become locked. The grid must live as long.
-[[nodiscard]] std::vector<Block> blocks_of(SurfaceState& state, const BlockGrid& grid);
+[[nodiscard]] std::vector<SurfaceBlock> blocks_of(SurfaceState& state, const BlockGrid& grid);
 
 }  // namespace isoatlas

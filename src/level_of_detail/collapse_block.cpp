@@ -34,7 +34,7 @@ struct Placement {
 
 class BlockCollapser {
 public:
-    BlockCollapser(SurfaceState& state, const Block& block, const CollapseLimits& limits)
+    BlockCollapser(SurfaceState& state, const SurfaceBlock& block, const CollapseLimits& limits)
         : state_(state), mesh_(state.mesh), block_(block), limits_(limits), distance_(state.distance), embedding_(state) {}
 
     std::int64_t run(const CallerLooks& stop_if_asked) {
@@ -110,7 +110,8 @@ private:
 
     void take(const Entry& entry) {
         Placement placement;
-        if (!names_edge(entry.corner) || has_failed(entry.corner) || !place(entry.corner, placement) || placement.cost != entry.cost) return;
+        if (!names_edge(entry.corner) || has_failed(entry.corner) || !place(entry.corner, placement) || placement.cost != entry.cost)
+            return;
         if (may_collapse(placement)) {
             collapse(placement);
         } else {
@@ -187,7 +188,7 @@ private:
 
     SurfaceState& state_;
     CollapsibleMesh& mesh_;
-    const Block& block_;
+    const SurfaceBlock& block_;
     const CollapseLimits limits_;
     DistanceRule distance_;
     EmbeddingRule embedding_;
@@ -199,7 +200,7 @@ private:
 
 }  // namespace
 
-std::int64_t collapse_block(SurfaceState& state, const Block& block, const CollapseLimits& limits, const CallerLooks& stop_if_asked) {
+std::int64_t collapse_block(SurfaceState& state, const SurfaceBlock& block, const CollapseLimits& limits, const CallerLooks& stop_if_asked) {
     BlockCollapser collapser(state, block, limits);
     return collapser.run(stop_if_asked);
 }

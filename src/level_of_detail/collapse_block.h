@@ -15,6 +15,6 @@ struct CollapseLimits {
 };
 
 /// Collapses edges between points that are not locked, cheapest first, as long as one can be. Returns how many triangles disappeared.
-std::int64_t collapse_block(SurfaceState& state, const Block& block, const CollapseLimits& limits, const CallerLooks& stop_if_asked);
+std::int64_t collapse_block(SurfaceState& state, const SurfaceBlock& block, const CollapseLimits& limits, const CallerLooks& stop_if_asked);
 
 }  // namespace isoatlas

@@ -49,7 +49,7 @@ bool DistanceRule::holds(const Star& star, const SurfaceState& state) {
     };
     bound_ = kHalf * state_.max;
     if (are_covered(bound_)) return true;
-    
+
     bound_ = state_.max;
     return are_covered(bound_);
 }
@@ -89,7 +89,8 @@ bool DistanceRule::move_whole(const Piece& piece, std::size_t part) {
         if (squared < least) least = squared, nearest = other;
     };
     const auto is_near = [&] {
-        return least <= squared_max && (std::sqrt(least) + ball.radius <= state_.max || is_near_all(corners, parts_[nearest].corners, squared_max));
+        return least <= squared_max &&
+               (std::sqrt(least) + ball.radius <= state_.max || is_near_all(corners, parts_[nearest].corners, squared_max));
     };
     if (least > kNearEnough * squared_max) {
         ask(parts_[part].before);

@@ -1,4 +1,4 @@
-// Rule (b): the surface before and the one after stay within a distance of each other, both ways (docs/theory/11-level-of-detail.md).
+// Rule (b): the surface before and the one after stay within a distance of each other, both ways (docs/theory/10-level-of-detail.md).
 //
 // First by bounds: with n the normal of a triangle after, towards which all triangles after lie, every line along n through it meets the
 // star before, whose points are at most as far from its plane as the farthest corner. The distances of the star before to the original

@@ -38,7 +38,9 @@ void EmbeddingRule::make_parts(const Star& star) {
     for (const StarTriangle& t : star.triangles) {
         if (t.disappears) continue;
         const Vec3 &b = state_.points[t.b], &c = state_.points[t.c];
-        parts_.push_back({t.number, {star.kept, t.b, t.c}, box_of(star.new_point, b, c),
+        parts_.push_back({t.number,
+                          {star.kept, t.b, t.c},
+                          box_of(star.new_point, b, c),
                           box_of(t.apex == star.gone ? star.gone_point : star.kept_point, b, c)});
     }
 }

@@ -106,7 +106,8 @@ void OriginalSurface::fill() {
         Vec3 low = points_[static_cast<std::size_t>(triangles_[t][0])], high = low;
         for (std::size_t k = 1; k < 3; ++k) {
             const Vec3& p = points_[static_cast<std::size_t>(triangles_[t][k])];
-            for (std::size_t axis = 0; axis < 3; ++axis) low[axis] = std::min(low[axis], p[axis]), high[axis] = std::max(high[axis], p[axis]);
+            for (std::size_t axis = 0; axis < 3; ++axis)
+                low[axis] = std::min(low[axis], p[axis]), high[axis] = std::max(high[axis], p[axis]);
         }
         const Cell first = cell_of(low), last = cell_of(high);
         Cell cell{};

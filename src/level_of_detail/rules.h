@@ -22,12 +22,12 @@ struct DistanceState {
 struct SurfaceState {
     CollapsibleMesh mesh;
     const SurfaceFrame* frame;
-    Array<Vec3> scaled;               ///< the points where distances are measured
-    Array<Vec3> points;               ///< the same in physical coordinates, for exact predicates
-    Array<Quadric<float>> quadrics;   ///< of each point
-    Array<std::uint16_t> faces;       ///< of a point: the planes in which it stays, a bit each
-    Array<std::uint8_t> locked;       ///< of a point: 1 where a triangle of it reaches into another block
-    Array<std::uint8_t> failed;       ///< of a triangle: bit k where the edge of its corner k could not be collapsed and nothing changed since
+    Array<Vec3> scaled;              ///< the points where distances are measured
+    Array<Vec3> points;              ///< the same in physical coordinates, for exact predicates
+    Array<Quadric<float>> quadrics;  ///< of each point
+    Array<std::uint16_t> faces;      ///< of a point: the planes in which it stays, a bit each
+    Array<std::uint8_t> locked;      ///< of a point: 1 where a triangle of it reaches into another block
+    Array<std::uint8_t> failed;  ///< of a triangle: bit k where the edge of its corner k could not be collapsed and nothing changed since
     DistanceState distance;
 };
 

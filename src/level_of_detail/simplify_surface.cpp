@@ -9,6 +9,7 @@
 #include "base/parallel.h"
 #include "geometry/deviation.h"
 #include "geometry/triangles.h"
+#include "isoatlas/environment.h"
 #include "isoatlas/error.h"
 #include "isoatlas/level_of_detail.h"
 #include "level_of_detail/collapse_block.h"
@@ -72,7 +73,8 @@ Surface remaining(const Surface& surface, const SurfaceState& state, const Origi
         result.points.push_back(state.points[point]);
         if (!surface.normals.empty()) {
             const bool has_moved = state.scaled[point] != original.point(point);
-            result.normals.push_back(has_moved ? normal_near(surface, original, state.scaled[point], state.frame->step()) : surface.normals[point]);
+            result.normals.push_back(has_moved ? normal_near(surface, original, state.scaled[point], state.frame->step())
+                                               : surface.normals[point]);
         }
         if (!surface.object.empty()) result.object.push_back(surface.object[point]);
         if (!surface.contour.empty()) result.contour.push_back(surface.contour[point]);
@@ -144,7 +146,7 @@ void run_passes(SurfaceState& state, const SimplificationOptions& options, doubl
         BoundingBox bounds;
         for (const Vec3& p : state.scaled) bounds.add(p);
         const BlockGrid grid(bounds, pass.edge, pass.shift);
-        const std::vector<Block> blocks = blocks_of(state, grid);
+        const std::vector<SurfaceBlock> blocks = blocks_of(state, grid);
         std::vector<std::int64_t> gone(blocks.size(), 0);
         const CallerLooks stop_if_asked(context);
         for_each_block(context.threads, static_cast<std::int64_t>(blocks.size()), [&](std::int64_t block) {
@@ -170,6 +172,7 @@ double measured_distance(const Surface& surface, const SurfaceFrame& frame, cons
 
 SimplifiedSurface simplify_surface(const Surface& surface, const Geometry& geometry, const Extent& extent,
                                    const SimplificationOptions& options, const Context& context) {
+    const EnvironmentScope scope(context);
     require_options(surface, options);
     const auto full = static_cast<std::int64_t>(surface.triangles.size());
     if (full <= options.triangles || surface.triangles.empty()) return {surface, 0};

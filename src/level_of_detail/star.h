@@ -1,7 +1,7 @@
 // The star of an edge: the triangles around its two points, before and after it is collapsed.
 //
-// Notation: the edge (gone, kept) becomes the point `kept` at a new place. Of its triangles those with both points disappear; the others get
-// `kept` as their apex.
+// Notation: the edge (gone, kept) becomes the point `kept` at a new place. Of its triangles those with both points disappear; the others
+// get `kept` as their apex.
 #pragma once
 
 #include <cstdint>

@@ -13,9 +13,9 @@ public:
     /// state.scaled has the new place of the kept point; the star the old ones.
     ///
     /// Seen along a direction n towards which all triangles before and after face, the triangles after go once around their apex, so that
-    /// the ring is a polygon without crossings; the triangles before, of the same ring, cover it once too. Both are graphs of functions that
-    /// are linear in the pieces into which their sides cut the polygon. The difference is largest in a corner of a piece: an old point, the
-    /// new one, or where a side before crosses a side after.
+    /// the ring is a polygon without crossings; the triangles before, of the same ring, cover it once too. Both are graphs of functions
+    /// that are linear in the pieces into which their sides cut the polygon. The difference is largest in a corner of a piece: an old
+    /// point, the new one, or where a side before crosses a side after.
     [[nodiscard]] double find(const Star& star, const SurfaceState& state);
 
 private:

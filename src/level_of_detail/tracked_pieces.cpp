@@ -22,8 +22,7 @@ TrackedPieces::TrackedPieces(std::size_t triangles) {
 void TrackedPieces::add(std::uint32_t triangle, const Piece& piece) {
     std::uint32_t added = piece.triangle;
     if (piece.path != 1) {
-        const auto place = quarters_.push_back({piece, kNone});
-        added = static_cast<std::uint32_t>(first_.size() + static_cast<std::size_t>(place - quarters_.begin()));
+        added = static_cast<std::uint32_t>(first_.size() + quarters_.add({piece, kNone}));
     }
     std::uint32_t& first = first_[triangle];
     set_next(added, first == kNone ? added : next(first));

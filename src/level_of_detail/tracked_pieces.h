@@ -1,11 +1,10 @@
-// Pieces of the original surface, which each present triangle tracks: triangles, and where a triangle is near several present ones, quarters
-// of it, or quarters of those.
+// Pieces of the original surface, which each present triangle tracks: triangles, and where a triangle is near several present ones,
+// quarters of it, or quarters of those.
 #pragma once
-
-#include <tbb/concurrent_vector.h>
 
 #include <cstdint>
 
+#include "base/shared_vector.h"
 #include "isoatlas/array.h"
 #include "level_of_detail/original.h"
 
@@ -52,7 +51,7 @@ private:
 
     Array<std::uint32_t> first_;  ///< of a triangle: a piece of its ring, by number; kNone: there is none
     Array<std::uint32_t> next_;   ///< of a whole triangle
-    tbb::concurrent_vector<Quarter> quarters_;
+    SharedVector<Quarter> quarters_;
 };
 
 }  // namespace isoatlas

@@ -110,7 +110,9 @@ void simplified_surfaces_have_the_same_bytes_for_any_threads() {
     RC_ASSERT(one.contour == two.contour);
 }
 
-RC_GTEST_PROP(SimplifiedSurfaces, HaveTheSameContoursWithinTheDistance, ()) { simplified_surfaces_have_the_same_contours_within_the_distance(); }
+RC_GTEST_PROP(SimplifiedSurfaces, HaveTheSameContoursWithinTheDistance, ()) {
+    simplified_surfaces_have_the_same_contours_within_the_distance();
+}
 RC_GTEST_PROP(SimplifiedSurfaces, KeepTheIdsOfTheirContours, ()) { simplified_surfaces_keep_the_ids_of_their_contours(); }
 RC_GTEST_PROP(SimplifiedSurfaces, KeepCapsFlat, ()) { caps_of_simplified_surfaces_stay_flat(); }
 RC_GTEST_PROP(SimplifiedSurfaces, HaveTheSameBytesForAnyThreads, ()) { simplified_surfaces_have_the_same_bytes_for_any_threads(); }
