@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
 """Writes the seeds of the NRRD, MetaImage, NumPy, MRC, Amira, BOV, legacy VTK, Zarr, DICOM and RAW targets into tests/fuzz/corpus (the files are committed; this says how they were made)."""
+import bz2
 import gzip
 import io
 import json
@@ -61,7 +62,7 @@ def zarr_seeds():
     group, attributes = document(zarr_format=2), document(multiscales=[image], omero={"channels": [{"label": "a"}]})
     write("zarr", "raw", keys({".zarray": zarr_2(), "0.0.0": SAMPLES}))
     write("zarr", "turned", keys({".zarray": zarr_2(dtype=">f2", order="F", chunks=[3, 2, 2], dimension_separator="/", fill_value="NaN"), "0/0/0": SAMPLES[:24], "1/1/0": SAMPLES[24:]}))
-    packed = [("zlib", zlib.compress(SAMPLES)), ("gzip", gzip.compress(SAMPLES, mtime=0)), ("lz4", struct.pack("<I", 48) + b"\xf0\x21" + SAMPLES),
+    packed = [("zlib", zlib.compress(SAMPLES)), ("gzip", gzip.compress(SAMPLES, mtime=0)), ("bz2", bz2.compress(SAMPLES)), ("lz4", struct.pack("<I", 48) + b"\xf0\x21" + SAMPLES),
               ("zstd", bytes.fromhex("28b52ffd2030810100") + SAMPLES), ("blosc", struct.pack("<4B3I", 2, 1, 0x02, 2, 48, 48, 64) + SAMPLES)]
     for name, value in packed:
         write("zarr", name, keys({".zarray": zarr_2(compressor={"id": name}), "0.0.0": value}))

@@ -80,7 +80,7 @@ DOORS = {
     r"nlohmann/.*": r"apps/.*|tests/.*|bench/.*|src/formats/.*|src/store/contents\.cpp|src/server/(?:client|scene_file)\.cpp",
     r"libdeflate\.h": r"src/codec/chunk_codec\.cpp|src/image/png\.cpp|src/server/coding\.cpp",
     r"zstd\.h": r"src/server/coding\.cpp|src/formats/zarr/codecs\.cpp|tests/.*",
-    r"blosc\.h|lz4\.h": r"src/formats/zarr/codecs\.cpp|tests/.*",
+    r"blosc\.h|lz4\.h|bzlib\.h": r"src/formats/zarr/codecs\.cpp|tests/.*",
     r"boost/(asio|beast)/.*": r"src/server/(network|request_head|response_reader)\.cpp|tests/.*",
     r"meshoptimizer\.h": r"src/preview/(wire_mesh|coarse_surface)\.cpp|(tests|bench)/.*",
     r"webp/.*": r"src/image/webp\.cpp",

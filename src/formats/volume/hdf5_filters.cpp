@@ -11,7 +11,8 @@
 namespace isoatlas {
 namespace {
 
-constexpr int kDeflate = 1, kShuffle = 2, kFletcher = 3, kScaleOffset = 6, kLzf = 32000, kBlosc = 32001, kLz4 = 32004, kZstd = 32015;
+constexpr int kDeflate = 1, kShuffle = 2, kFletcher = 3, kScaleOffset = 6, kBzip2 = 307, kLzf = 32000, kBlosc = 32001, kLz4 = 32004,
+              kZstd = 32015;
 constexpr std::size_t kChecksumBytes = 4;
 
 using Bytes = std::span<const std::byte>;
@@ -199,6 +200,7 @@ std::string undo(const Hdf5ChunkFilter& filter, Bytes from, std::size_t most, st
         case kShuffle: return undo_shuffle(filter, from, out);
         case kFletcher: return undo_fletcher(from, out);
         case kScaleOffset: return undo_scale_offset(filter, from, most, out);
+        case kBzip2: return decode({.kind = ByteCodec::Kind::bzip2}, from, most, out);
         case kLzf: return undo_lzf(from, most, out);
         case kBlosc: return decode({.kind = ByteCodec::Kind::blosc}, from, most, out);
         case kLz4: return undo_lz4(from, most, out);
@@ -211,7 +213,7 @@ std::string undo(const Hdf5ChunkFilter& filter, Bytes from, std::size_t most, st
 }  // namespace
 
 bool is_known_hdf5_filter(const Hdf5ChunkFilter& filter) {
-    constexpr int kKnown[] = {kDeflate, kShuffle, kFletcher, kLzf, kBlosc, kLz4, kZstd};
+    constexpr int kKnown[] = {kDeflate, kShuffle, kFletcher, kBzip2, kLzf, kBlosc, kLz4, kZstd};
     ScaleOffset scale;
     return std::ranges::find(kKnown, filter.id) != std::end(kKnown) || (filter.id == kScaleOffset && read_settings(filter, scale));
 }

@@ -14,7 +14,7 @@ struct Hdf5ChunkFilter {
     std::vector<std::uint32_t> settings{};  ///< as the file gives them, at most 32
 };
 
-/// Whether undo_hdf5_filters() knows it: deflate, shuffle, Fletcher32, scale-offset of integers, LZF, Blosc, LZ4, Zstandard.
+/// Whether undo_hdf5_filters() knows it: deflate, shuffle, Fletcher32, scale-offset of integers, bzip2, LZF, Blosc, LZ4, Zstandard.
 [[nodiscard]] bool is_known_hdf5_filter(const Hdf5ChunkFilter& filter);
 
 /// Undoes filters, given in the order of encoding, without those whose bit is set in `skipped`. `value` holds the stored bytes, then the

@@ -1,6 +1,7 @@
 #include "formats/zarr/codecs.h"
 
 #include <blosc.h>
+#include <bzlib.h>
 #include <lz4.h>
 #include <zlib.h>
 #include <zstd.h>
@@ -56,6 +57,41 @@ std::string inflate_bytes(std::span<const std::byte> encoded, int window, std::s
         }
     }
     ::inflateEnd(&stream);
+    out.resize(written);
+    return error;
+}
+
+/// One stream of bzip2.
+std::string decode_bzip2(std::span<const std::byte> encoded, std::size_t most, std::vector<std::byte>& out) {
+    constexpr std::size_t kRatio = std::size_t{1} << 21;  // a block of 40 bytes stands for at most 46 MB
+    out.resize(room_of(encoded.size(), kRatio, most));
+    if (encoded.size() > kInts) return "the stream of bzip2 is too long";
+    bz_stream stream{};
+    if (::BZ2_bzDecompressInit(&stream, 0, 0) != BZ_OK) return "bzip2 cannot start";
+    stream.next_in = reinterpret_cast<char*>(const_cast<std::byte*>(encoded.data()));
+    stream.avail_in = static_cast<unsigned>(encoded.size());
+    std::size_t written = 0;
+    std::string error;
+    for (int result = BZ_OK; result == BZ_OK && error.empty();) {
+        const std::size_t room = std::min(out.size() - written, kInts);
+        char none = 0;  // room for the end alone
+        stream.avail_out = static_cast<unsigned>(std::max<std::size_t>(room, 1));
+        stream.next_out = room > 0 ? reinterpret_cast<char*>(out.data() + written) : &none;
+        const unsigned before = stream.avail_in;
+        result = ::BZ2_bzDecompress(&stream);
+        const std::size_t got = std::max<std::size_t>(room, 1) - stream.avail_out;
+        if (got > room) {
+            error = too_long(out.size());
+        } else if (result == BZ_OK && got == 0 && before == stream.avail_in) {
+            error = "the compressed stream ends early";
+        } else if (result != BZ_OK && result != BZ_STREAM_END) {
+            error = "the compressed stream is damaged";
+        } else if (result == BZ_STREAM_END && stream.avail_in > 0) {
+            error = "bytes follow the compressed stream";
+        }
+        written += std::min(got, room);
+    }
+    ::BZ2_bzDecompressEnd(&stream);
     out.resize(written);
     return error;
 }
@@ -152,6 +188,7 @@ std::string decode(const ByteCodec& codec, std::span<const std::byte> encoded, s
     constexpr int kAnyWrapper = 15 + 32;
     switch (codec.kind) {
         case ByteCodec::Kind::inflate: return inflate_bytes(encoded, kAnyWrapper, most, out);
+        case ByteCodec::Kind::bzip2: return decode_bzip2(encoded, most, out);
         case ByteCodec::Kind::zstd: return decode_zstd(encoded, most, out);
         case ByteCodec::Kind::lz4: return decode_lz4(encoded, most, out);
         case ByteCodec::Kind::blosc: return decode_blosc(encoded, most, out);

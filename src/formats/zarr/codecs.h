@@ -18,7 +18,7 @@ struct CodecNumber {
 };
 
 struct ByteCodec {
-    enum class Kind : std::uint8_t { inflate, zstd, lz4, blosc, crc32c, shuffle, delta, scale } kind = Kind::inflate;
+    enum class Kind : std::uint8_t { inflate, bzip2, zstd, lz4, blosc, crc32c, shuffle, delta, scale } kind = Kind::inflate;
     std::size_t element = 1;           ///< shuffle: bytes
     CodecNumber decoded{}, encoded{};  ///< delta, scale
     double scale = 1, offset = 0;      ///< scale: decoded = encoded / scale + offset

@@ -10,7 +10,7 @@
 namespace isoatlas {
 namespace {
 
-constexpr const char* kCodecs = "blosc, zstd, lz4, zlib or gzip, with the filters shuffle, delta, fixedscaleoffset or crc32c";
+constexpr const char* kCodecs = "blosc, zstd, lz4, bz2, zlib or gzip, with the filters shuffle, delta, fixedscaleoffset or crc32c";
 
 ByteCodec shuffle_of(const KeyStore& store, const std::string& where, const Json& settings) {
     const Json* size = find_member(settings, "elementsize");
@@ -62,7 +62,8 @@ CodecNumber codec_number(const KeyStore& store, const std::string& where, const 
 ByteCodec codec_of_numcodecs(const KeyStore& store, const std::string& where, const std::string& id, const Json& settings) {
     using Kind = ByteCodec::Kind;
     constexpr std::pair<std::string_view, Kind> kPlain[] = {{"zlib", Kind::inflate}, {"gzip", Kind::inflate}, {"zstd", Kind::zstd},
-                                                            {"lz4", Kind::lz4},      {"blosc", Kind::blosc},  {"crc32c", Kind::crc32c}};
+                                                            {"lz4", Kind::lz4},      {"bz2", Kind::bzip2},    {"blosc", Kind::blosc},
+                                                            {"crc32c", Kind::crc32c}};
     for (const auto& [name, kind] : kPlain) {
         if (id == name) return {.kind = kind};
     }

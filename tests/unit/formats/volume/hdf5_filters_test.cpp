@@ -110,7 +110,7 @@ TEST(Hdf5Filters, ElementsOfAnySizeAreShuffled) {
 
 TEST(Hdf5Filters, OtherFiltersAndWrongSizesAreTold) {
     Bytes value(8), scratch;
-    for (const int id : {4, 5, 307, 32008, 99999}) {  // szip, n-bit, bzip2, bitshuffle, none
+    for (const int id : {4, 5, 32008, 99999}) {  // szip, n-bit, bitshuffle, none
         EXPECT_FALSE(is_known_hdf5_filter({.id = id}));
         const std::vector<Hdf5ChunkFilter> filters = {{.id = id}};
         EXPECT_NE(undo_hdf5_filters(filters, 0, 8, value, scratch).find(std::to_string(id)), std::string::npos);
