@@ -56,9 +56,9 @@ enum class Reason : std::uint16_t {
     channel_needed,          ///< the file has several channels: ErrorText::choices are words for OpenOptions::channel
     no_such_channel,         ///< likewise
     no_channels,             ///< the file has one channel
-    series_needed,           ///< a folder has several series: ErrorText::choices are words for OpenOptions::series
+    series_needed,           ///< a folder has several series, a file several images: ErrorText::choices are words for OpenOptions::series
     no_such_series,          ///< likewise
-    no_series,               ///< OpenOptions::series is for DICOM
+    no_series,               ///< OpenOptions::series: there is one volume, or the format has neither series nor images
     dataset_needed,          ///< a file has several arrays that could be a volume: ErrorText::choices are words for OpenOptions::dataset
     no_such_dataset,         ///< likewise
     no_datasets,             ///< OpenOptions::dataset is for files of many arrays

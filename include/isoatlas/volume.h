@@ -182,7 +182,7 @@ struct OpenOptions {
     // (ErrorText::choices).
     std::optional<std::int64_t> time_step;  ///< from 0
     std::optional<std::string> channel;     ///< its name, or its number from 0
-    std::optional<std::string> series;      ///< of a DICOM folder: its identifier, or its number from 0
+    std::optional<std::string> series;      ///< of a DICOM folder, or image of an OME-TIFF: its identifier or name, or its number from 0
     std::optional<std::int64_t> level;      ///< of a resolution pyramid, 0 (or unset) the finest
     /// The path of an array inside a file of many, "/group/array"; as well FILE:/group/array as the path of the file.
     std::optional<std::string> dataset;

@@ -10,8 +10,8 @@ namespace isoatlas {
 namespace {
 
 constexpr std::int64_t kBins = 160;
-constexpr double kFew = 256;  // values
-constexpr double kSteps = 4;  // of the census in the narrowest bin
+constexpr double kFew = 256;        // values
+constexpr double kCensusSteps = 4;  // of the census in the narrowest bin
 
 /// Moves the edges between the ends to the closest values of the census, unless that is too coarse for them.
 void move_to_counted(const Atlas& atlas, std::span<double> edges) {
@@ -20,7 +20,7 @@ void move_to_counted(const Atlas& atlas, std::span<double> edges) {
     double narrowest = edges.back() - edges.front();
     for (std::size_t i = 1; i < edges.size(); ++i) narrowest = std::min(narrowest, edges[i] - edges[i - 1]);
     const double step = (values.back() - values.front()) / static_cast<double>(values.size() - 1);
-    if (narrowest < kSteps * step) return;
+    if (narrowest < kCensusSteps * step) return;
     for (double& edge : edges.subspan(1, edges.size() - 2)) {
         const auto after = std::ranges::lower_bound(values, edge);
         if (after == values.begin() || after == values.end()) continue;
