@@ -36,7 +36,8 @@ struct SimplifiedOptions {
 
 struct SimplifiedReport {
     std::vector<CheckResult> checks;
-    std::int64_t exact_triangles = 0, exact_contours = 0, contours = 0, exact_genus = 0, genus = 0;
+    std::int64_t exact_triangles = 0, exact_contours = 0, contours = 0, exact_genus = 0;
+    std::optional<std::int64_t> genus{};                          ///< of all contours of the mesh together; none: it is no manifold
     bool is_measured = false;                                     ///< false: points that are none leave nothing to measure
     DistanceBounds to_exact{}, from_exact{};                      ///< of mesh from exact surface and back, in the unit of the volume
     DistanceBounds to_exact_in_voxels{}, from_exact_in_voxels{};  ///< the same in steps between samples

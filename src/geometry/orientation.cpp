@@ -48,7 +48,7 @@ int orientation_of_integers(const Vec2& a, const Vec2& b, const Vec2& c) {
 }
 
 /// Rows of the determinant are a coordinate and 1: of the points projected along z.
-Expansion<4> minor(const Vec3& a, const Vec3& b) { return difference_of_products(a[0], b[1], b[0], a[1]); }
+Expansion<4> minor_of(const Vec3& a, const Vec3& b) { return difference_of_products(a[0], b[1], b[0], a[1]); }
 
 /// Flat pieces of a surface lie across an axis more often than not.
 bool share_a_coordinate(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
@@ -62,15 +62,16 @@ bool share_a_coordinate(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3&
 int exact_orientation(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
     if (share_a_coordinate(a, b, c, d)) return 0;
     if (!(expansions_hold(a) && expansions_hold(b) && expansions_hold(c) && expansions_hold(d))) return orientation_of_integers(a, b, c, d);
-    const Expansion<4> ab = minor(a, b), bc = minor(b, c), cd = minor(c, d), da = minor(d, a), ac = minor(a, c), bd = minor(b, d);
+    const Expansion<4> ab = minor_of(a, b), bc = minor_of(b, c), cd = minor_of(c, d), da = minor_of(d, a), ac = minor_of(a, c),
+                       bd = minor_of(b, d);
     const Expansion<12> bcd = bc + cd - bd, cda = cd + da + ac, dab = da + ab + bd, abc = ab + bc - ac;
     return (cda * b[2] + abc * d[2] - (bcd * a[2] + dab * c[2])).sign();
 }
 
 int exact_orientation(const Vec2& a, const Vec2& b, const Vec2& c) {
     if (!(expansions_hold(a) && expansions_hold(b) && expansions_hold(c))) return orientation_of_integers(a, b, c);
-    const auto minor_of = [](const Vec2& p, const Vec2& q) { return difference_of_products(p[0], q[1], q[0], p[1]); };
-    return (minor_of(a, b) + minor_of(b, c) + minor_of(c, a)).sign();
+    const auto of_two = [](const Vec2& p, const Vec2& q) { return difference_of_products(p[0], q[1], q[0], p[1]); };
+    return (of_two(a, b) + of_two(b, c) + of_two(c, a)).sign();
 }
 
 }  // namespace isoatlas

@@ -97,6 +97,10 @@ private:
     const Context& context_;
 };
 
+bool holds(const std::vector<CheckResult>& checks, const std::string& name) {
+    return std::ranges::any_of(checks, [&](const CheckResult& check) { return check.name == name && check.holds; });
+}
+
 CheckResult does_not_cross_itself(const Compared& compared, const Context& context) {
     const Crossings found = count_crossings(compared.mesh.points, compared.mesh.triangles, context);
     std::string detail = std::to_string(found.pairs) + " pairs of triangles cross";
@@ -110,14 +114,15 @@ void compare_contours(SimplifiedReport& report, const Compared& compared, const 
     const ContourMatch match = match_contours(compared.exact, compared.mesh, context);
     report.exact_contours = static_cast<std::int64_t>(match.surface.list.size());
     report.contours = static_cast<std::int64_t>(match.mesh.list.size());
-    report.exact_genus = match.surface.genus(), report.genus = match.mesh.genus();
+    report.exact_genus = match.surface.genus();
+    if (holds(report.checks, "surface_is_manifold")) report.genus = match.mesh.genus();
     const bool one_to_one = match.unmatched.empty();
     const std::string contours =
         std::to_string(report.contours) + " contours, of the exact surface " + std::to_string(report.exact_contours);
     report.checks.push_back({"contours_are_one_to_one", one_to_one, one_to_one ? contours : contours + "; " + match.unmatched});
     if (!one_to_one) return;  // nothing else can be compared
     report.checks.push_back({"contours_have_same_genus", match.other_genus.empty(),
-                             or_else(match.other_genus, "genus " + std::to_string(report.genus) + " in all")});
+                             or_else(match.other_genus, "genus " + std::to_string(report.exact_genus) + " in all")});
     if (!(match.surface.all_closed() && match.mesh.all_closed())) return;
     report.checks.push_back(
         {"contours_are_nested_alike", match.other_nesting.empty(), or_else(match.other_nesting, "each inside the same others")});
@@ -131,10 +136,6 @@ CheckResult is_within(const SimplifiedReport& report, double limit, bool in_voxe
     std::string detail = digits(upper) + unit_text + ", at most " + digits(limit) + unit_text + " allowed";
     if (upper > limit && lower <= limit) detail += "; it differs from that by less than can be told";
     return {"distance_is_within", upper <= limit, detail};
-}
-
-bool holds(const std::vector<CheckResult>& checks, const std::string& name) {
-    return std::ranges::any_of(checks, [&](const CheckResult& check) { return check.name == name && check.holds; });
 }
 
 void check_options(const Mesh& mesh, const Surface& exact, const SimplifiedOptions& options) {
@@ -165,8 +166,12 @@ SimplifiedReport verify_simplified(const Mesh& mesh, const Surface& exact, const
     if (!holds(report.checks, "indices_are_valid") || !holds(report.checks, "points_are_finite")) return report;
     const BigVector<Vec3> points = points_in_space(mesh, exact, options.space);
     const Compared compared{view(points, mesh.triangles), view(exact.points, exact.triangles)};
+    constexpr int kPhases = 3;
+    context.report("find crossings", 0, kPhases, 0);
     report.checks.push_back(does_not_cross_itself(compared, context));
+    context.report("match contours", 1, kPhases, 0);
     compare_contours(report, compared, context);
+    context.report("measure distances", 2, kPhases, 0);
     report.is_measured = true;
     Distances(compared, info, options, context).measure(report);
     if (options.max_distance) report.checks.push_back(is_within(report, *options.max_distance, options.in_voxels, exact.unit));

@@ -90,7 +90,7 @@ AgainstSurface verify_against(const Arguments& arguments, Terminal& terminal) {
     result.head["points"] = mesh.points.size();
     result.head["triangles"] = mesh.triangles.size();
     result.head["contours"] = report.contours;
-    result.head["genus"] = report.genus;
+    result.head["genus"] = report.genus ? Json(*report.genus) : Json(nullptr);
     result.head["exact"] = {{"triangles", report.exact_triangles}, {"contours", report.exact_contours}, {"genus", report.exact_genus}};
     result.head["distance"] = nullptr;
     if (!report.is_measured) return result;
