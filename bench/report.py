@@ -224,6 +224,24 @@ def replace(page, mark, text):
     return page[:found.start()] + found[1] + joined + "\n" + found[3] + page[found.end():]
 
 
+def simplified_table(document):
+    """A row for each method on each surface; what differs from the exact surface, or is farther than was asked for, is in bold."""
+    rows, last = [], None
+    for r in document["simplified"]:
+        def count(key, row=r):
+            if row[key] is None:
+                return ""
+            found, exact = row[key].split(" of ")
+            return bold(found, found != exact)
+        distance = r["distance, voxels"]
+        rows.append(["" if r["surface"] == last else r["surface"], r["method"], "" if r["triangles"] is None else thousands(r["triangles"]),
+                     "" if distance is None else bold(f"{distance:.3f}", distance > document["voxels"]), count("contours"), count("genus"),
+                     "" if r["self-crossings"] is None else bold(r["self-crossings"], r["self-crossings"] > 0), r["what else is wrong"],
+                     "" if r["seconds"] is None else f"{r['seconds']:.2f}"])
+        last = r["surface"]
+    return table(["surface", "method", "triangles", "distance, voxels", "contours", "genus", "self-crossings", "what else is wrong", "seconds"], rows)
+
+
 TABLES = [
     ("engine", "engine", engine_table),
     ("phases", "engine", phases_table),
@@ -240,6 +258,7 @@ TABLES = [
     ("python-facts", "python", lambda document: generic_table(document["facts"])),
     ("methods", "methods", methods_table),
     ("methods-surfaces", "methods-surfaces", surfaces_table),
+    ("simplify", "simplify", simplified_table),
 ] + [(f"scale-{section}", f"scale-{section}", scale_table) for section in ("analysis", "extract", "stores", "render", "pages")]
 
 
@@ -262,6 +281,10 @@ def self_test():
     row = {"method": "m", "triangles": 1200, "components": 1, "euler": 2, "hole_edges": 0, "non_manifold_edges": 0, "seconds": 0.5}
     found = {"volume": "v", "tau": 0.5, "active cells": 600, "rows": [row, row | {"triangles": 0}]}
     assert surfaces_table({"results": [found]}).endswith("| v at 0.5, 600 active cells | m | 1 200 | 1 | 2 | 0 | 0 | 0.500 |")
+    row = {"surface": "v@1", "method": "m", "triangles": 10, "distance, voxels": 0.75, "contours": "1 of 2", "genus": "3 of 3", "self-crossings": 0,
+           "what else is wrong": "", "seconds": None}
+    simplified = simplified_table({"voxels": 0.5, "simplified": [row, row | {"triangles": None, "contours": None, "distance, voxels": None}]})
+    assert simplified.endswith("| v@1 | m | 10 | **0.750** | **1** | 3 | 0 |  |  |\n|  | m |  |  |  | 3 | 0 |  |  |"), simplified
 
 
 def main():

@@ -2,7 +2,7 @@
 # Measures what docs/performance.md reports and renders its tables. Takes three quarters of an hour on two processors; leave the machine
 # alone meanwhile.
 #
-#   scripts/bench.sh [--quick] [SECTION...]     sections: engine extract builds store formats render pages remote python methods scale; all of them by default
+#   scripts/bench.sh [--quick] [SECTION...]     sections: engine extract builds store formats render pages remote python methods simplify scale; all of them by default
 #
 # --quick: 64^3 voxels, a run or two each, into build/bench/quick and a copy of the page there: do the scripts work? On a processor with
 # AVX-512 everything is measured twice, with its own vectors and with ISOATLAS_SIMD=avx2; once, where ISOATLAS_SIMD is set, be it empty.
@@ -16,7 +16,7 @@ if [[ ${1:-} == --quick ]]; then
     shift
 fi
 sections=("$@")
-if [[ $# -eq 0 ]]; then sections=(engine extract builds store formats render pages remote python methods scale); fi
+if [[ $# -eq 0 ]]; then sections=(engine extract builds store formats render pages remote python methods simplify scale); fi
 programs=${ISOATLAS_BENCH_PROGRAMS:-}
 if [[ -z $programs ]]; then
     scripts/bootstrap.sh bench
@@ -25,13 +25,13 @@ if [[ -z $programs ]]; then
 fi
 out=build/bench
 page=docs/performance.md
-fields=() methods=() surfaces=() scale=() engine=() pairs=() package=() formats=()
+fields=() methods=() surfaces=() simplify=() scale=() engine=() pairs=() package=() formats=()
 if [[ -n $quick ]]; then
     out=build/bench/quick
     formats=(--volumes smooth-64 --pairs 1) engine=(smooth-64 noisy-64 white-64) scale=(--sizes 32 64) pairs=(--pairs 1) package=(--memmap smooth-64 --loops 100 --interrupts 2)
     methods=(smooth-16 smooth-32 smooth-64 white-16 white-32 white-64)
     fields=(--volumes "${engine[@]}")
-    surfaces=(--volumes smooth-16 white-16)
+    surfaces=(--volumes smooth-16 white-16) simplify=(--surfaces smooth-16@0 white-16@0.5)
 fi
 mkdir -p "$out/volumes"
 if [[ -n $quick ]]; then cp "$page" "$out/performance.md" && page=$out/performance.md; fi
@@ -68,8 +68,9 @@ measure() { # into the folder $1
                 python bench/methods/surfaces.py "$programs/isoatlas" "${surfaces[@]}" "${common[@]}" --json "$to/methods-surfaces.json"
                 python bench/machine.py "$to/methods-surfaces.json"
                 ;;
+            simplify) python bench/level_of_detail/compare.py "$programs" "${simplify[@]}" "${common[@]}" --json "$to/simplify.json" ;;
             scale) python bench/scale.py "$programs" "${scale[@]}" --cache "$out/volumes" --out "$to" ;;
-            *) echo "bench: no section '$section'; sections: engine extract builds store formats render pages remote python methods scale" >&2 && exit 2 ;;
+            *) echo "bench: no section '$section'; sections: engine extract builds store formats render pages remote python methods simplify scale" >&2 && exit 2 ;;
         esac
         if [[ $section == scale ]]; then python bench/machine.py "$to"/scale-*.json; else python bench/machine.py "$to/$section.json"; fi
         python bench/report.py "$to" "$page"

@@ -84,6 +84,7 @@ test|clang-format-19|format check
 test|clang-tidy-19|lint
 test|mold|links the many test programs
 bench|python3-vtk9|Flying Edges, the yardstick of surface extraction
+bench|libcgal-dev|edge collapse, beside ours
 bench|python3-numpy|reads the volumes for VTK
 bench|python3-h5py|reads HDF5 for the table of files
 bench|python3-zarr|reads Zarr for the table of files
