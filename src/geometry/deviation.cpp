@@ -36,7 +36,7 @@ public:
 
     void triangle(std::int64_t number, const Part& whole) {
         open_.push_back(whole);
-        while (!open_.empty()) {
+        for (parts_ = 0; !open_.empty(); ++parts_) {
             const Part part = open_.back();
             open_.pop_back();
             for (const Measured& corner : part) reach(number, corner);
@@ -61,7 +61,8 @@ private:
     /// Would halving a part with this bound tell nothing that was asked for?
     [[nodiscard]] bool is_settled(double bound) const {
         const double limit = options_.limit, fine = 1e-6 * limit;
-        const bool may_decide = limit > 0 && found_.lower <= limit && bound > limit;
+        constexpr std::int64_t kPartsToDecide = 10'000;  // of a triangle; one that is exactly as far as the limit would have no end
+        const bool may_decide = limit > 0 && found_.lower <= limit && bound > limit && parts_ < kPartsToDecide;
         return bound <= found_.lower + (may_decide ? std::min(fine, options_.tolerance) : options_.tolerance);
     }
 
@@ -138,6 +139,7 @@ private:
     const DeviationOptions& options_;
     OneSidedDistance found_;
     std::vector<Part> open_;
+    std::int64_t parts_ = 0;  ///< of the triangle at hand
 };
 
 /// The triangle nearest to each point of a mesh; -1: of points that no triangle uses.

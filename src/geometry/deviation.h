@@ -34,7 +34,7 @@ struct MeshView {
 
 struct DeviationOptions {
     double tolerance = 1e-3;  ///< upper - lower is at most this, in the unit of the points. Above 0
-    double limit = 0;         ///< above 0: more closely where that decides whether the distance is at most this; at 1e-6 of it is given up
+    double limit = 0;         ///< above 0: more closely, down to 1e-6 of it, where that may decide whether the distance is at most this
 };
 
 /// Finite coordinates, in the metric that distances are wanted in. The same for any number of threads. Throws Error: usage (tolerance),

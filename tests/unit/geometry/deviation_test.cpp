@@ -118,6 +118,24 @@ TEST(Deviation, DecidesALimitThatIsNearlyReached) {
     EXPECT_EQ(measure_deviation(first, second).upper(), 0);
 }
 
+TEST(Deviation, EndsWhereAllIsAsFarAsTheLimit) {
+    TestMesh inner, outer;  // half a unit apart everywhere, but for rounding
+    constexpr int kSides = 40;
+    for (int ring = 0; ring <= kSides; ++ring)
+        for (int i = 0; i < kSides; ++i) {
+            const double turn = 2 * std::acos(-1.0) * i / kSides, height = 2.0 * ring / kSides;
+            inner.points.push_back({std::cos(turn), std::sin(turn), height});
+            outer.points.push_back({1.5 * std::cos(turn), 1.5 * std::sin(turn), height});
+            if (ring == kSides) continue;
+            const std::int64_t a = ring * kSides + i, b = ring * kSides + (i + 1) % kSides, c = a + kSides, d = b + kSides;
+            for (const TriangleCorners& t : {TriangleCorners{a, b, d}, TriangleCorners{a, d, c}})
+                inner.triangles.push_back(t), outer.triangles.push_back(t);
+        }
+    const Deviation found = measure_deviation(inner.view(), outer.view(), {.tolerance = 1e-2, .limit = 0.5});
+    EXPECT_NEAR(found.lower(), 0.5, 1e-9);
+    EXPECT_LE(found.upper(), 0.51);
+}
+
 TEST(Deviation, FromNothingIsInfinite) {
     const TestMesh some = sheet(1, [](double, double) { return 0.0; });
     const Deviation found = measure_deviation(some.view(), MeshView{});
