@@ -5,6 +5,7 @@
 
 #include "data/label_directory.h"
 #include "data/print_surface.h"
+#include "data/simplify.h"
 #include "text/document.h"
 #include "text/interrupt.h"
 #include "text/sizes.h"
@@ -83,12 +84,15 @@ int extract_label_objects(const Arguments& arguments, Terminal& terminal) {
     if (arguments.for_print) options.shell = ShellChoice::outer;
     std::optional<Printing> printing;
     if (arguments.for_print) printing = printing_of(arguments);
+    std::optional<Simplification> simplification;
+    if (arguments.simplification.is_asked_for()) simplification = simplification_of(arguments);
     std::vector<std::string> notes;
     const std::vector<std::int64_t> labels = directory.find(arguments.objects);
     std::vector<NamedSurface> surfaces;
     std::size_t points = 0, triangles = 0, segments = 0;
     for (const std::int64_t label : labels) {
         Surface part = extract_label(source.volume(), label, {.interpolant = source.interpolant(), .surface = options}, source.context());
+        if (simplification) simplify(part, source.info(), *simplification, source.context());
         if (printing) print_surface(part, *printing, notes, source.context());
         points += part.points.size(), triangles += part.triangles.size(), segments += part.segments.size();
         surfaces.push_back({std::move(part), directory.title_of(label), directory.colour_of(label)});
@@ -115,6 +119,7 @@ int extract_label_objects(const Arguments& arguments, Terminal& terminal) {
         json["space"] = space_in_file(arguments.output, surface.space, file_options);
         json["warnings"] = warnings;
         json["notes"] = notes;
+        json["simplification"] = simplification ? simplification_json(*simplification) : Json(nullptr);
         json["print"] = printing ? printing_json(*printing) : Json(nullptr);
         add_reads(json, source.reads());
         print(terminal, json);
@@ -123,6 +128,7 @@ int extract_label_objects(const Arguments& arguments, Terminal& terminal) {
     terminal.out() << shown_name(arguments.output) << ": " << counted(facets, surface.segments.empty() ? "triangle" : "segment") << " of "
                    << counted(std::ssize(labels), "label") << (surface.unit.empty() ? "" : ", in " + surface.unit) << ", "
                    << interpolant_text(source.info(), surface.interpolant, 0) << '\n';
+    if (simplification) terminal.out() << simplification_text(*simplification) << '\n';
     if (printing) terminal.out() << printing_text(*printing) << '\n';
     if (labels.size() == 1 && !surface.triangles.empty() && surface.closed)
         terminal.next("isoatlas verify " + shell_word(arguments.output));
