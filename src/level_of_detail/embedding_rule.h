@@ -27,13 +27,15 @@ private:
     };
     void make_parts(const Star& star);
     [[nodiscard]] bool meets_itself() const;
-    [[nodiscard]] bool is_swept(const Star& star, std::uint32_t point) const;
+    [[nodiscard]] bool is_on_one_side(const std::array<std::uint32_t, 3>& triangle, const std::array<std::uint32_t, 3>& other) const;
+    [[nodiscard]] bool is_swept(const Star& star, std::uint32_t point);
     [[nodiscard]] BoundingBox triangle_box(std::uint32_t t) const;
 
     const SurfaceState& state_;
     TriangleGrid grid_;
     std::vector<Part> parts_;
     BoundingBox swept_{};
+    std::vector<std::uint32_t> outside_;  ///< points that are not swept
 };
 
 }  // namespace isoatlas
