@@ -7,7 +7,6 @@
 namespace isoatlas {
 namespace {
 
-constexpr double kHalf = 0.7;  ///< of the greatest distance: what is measured first when a bound is used up, so that it can grow again
 constexpr double kNearEnough = 0.01;  ///< of the squared greatest distance: no nearer part is looked for
 
 }  // namespace
@@ -20,7 +19,7 @@ void DistanceRule::make_parts(const Star& star, const SurfaceState& state) {
         if (t.disappears) continue;
         part_of_[i] = parts_.size();
         const std::array<Vec3, 3> corners{star.new_scaled, state.scaled[t.b], state.scaled[t.c]};
-        parts_.push_back({t.number, t.b, t.c, parts_.size(), parts_.size(), corners});
+        parts_.push_back({t.number, t.b, t.c, parts_.size(), parts_.size(), corners, 0});
     }
     for (std::size_t i = 0; i < parts_.size(); ++i) {
         for (std::size_t j = 0; j < parts_.size(); ++j) {
@@ -40,18 +39,27 @@ void DistanceRule::make_parts(const Star& star, const SurfaceState& state) {
 bool DistanceRule::holds(const Star& star, const SurfaceState& state) {
     make_parts(star, state);
     if (!tracked_stay_near(star)) return false;
-    double before = 0;
-    for (const StarTriangle& t : star.triangles) before = std::max(before, static_cast<double>(state_.to_original[t.number]));
-    bound_ = before < state_.max ? before + deviation_.find(star, state) : before;
-    if (bound_ < state_.max) return true;
-    const auto are_covered = [&](double distance) {
-        return std::ranges::all_of(parts_, [&](const Part& part) { return state_.original->covers(part.corners, distance); });
-    };
-    bound_ = kHalf * state_.max;
-    if (are_covered(bound_)) return true;
+    const double deviation = deviation_.find(star, state);
+    for (std::size_t j = 0; j < parts_.size(); ++j) {
+        Part& part = parts_[j];
+        part.bound = deviation;
+        for (std::size_t i = 0; part.bound <= state_.max && i < star.triangles.size(); ++i) {
+            const double before = state_.to_original[star.triangles[i].number];
+            if (before + deviation > part.bound && deviation_.overlap(i, j)) part.bound = before + deviation;
+        }
+        if (part.bound > state_.max && !measure(part)) return false;
+    }
+    return true;
+}
 
-    bound_ = state_.max;
-    return are_covered(bound_);
+/// A bound that is used up is measured: a little below the greatest distance if possible, so that it can grow again.
+bool DistanceRule::measure(Part& part) {
+    constexpr double kBelow = 0.9;
+    for (const double part_of_max : {kBelow, 1.0}) {
+        part.bound = part_of_max * state_.max;
+        if (state_.original->covers(part.corners, part.bound)) return true;
+    }
+    return false;
 }
 
 /// Every tracked piece goes to a part that is near all of it, or is cut into quarters that do.
@@ -108,8 +116,9 @@ bool DistanceRule::move_whole(const Piece& piece, std::size_t part) {
 void DistanceRule::commit(const Star& star) {
     for (const StarTriangle& t : star.triangles) state_.tracked.clear(t.number);
     for (const Moved& moved : moved_) state_.tracked.add(moved.triangle, moved.piece);
-    const float rounded_up = std::nextafter(static_cast<float>(bound_), std::numeric_limits<float>::max());
-    for (const Part& part : parts_) state_.to_original[part.number] = bound_ < state_.max ? rounded_up : static_cast<float>(state_.max);
+    for (const Part& part : parts_) {  // rounded up
+        state_.to_original[part.number] = std::nextafter(static_cast<float>(part.bound), std::numeric_limits<float>::max());
+    }
 }
 
 }  // namespace isoatlas

@@ -27,19 +27,20 @@ private:
         std::uint32_t number, b, c;
         std::size_t before, after;  ///< the parts around the apex beside it; at a rim itself
         std::array<Vec3, 3> corners;
+        double bound;  ///< to the original surface
     };
     struct Moved {
         Piece piece;
         std::uint32_t triangle;
     };
     void make_parts(const Star& star, const SurfaceState& state);
+    [[nodiscard]] bool measure(Part& part);
     [[nodiscard]] bool tracked_stay_near(const Star& star);
     [[nodiscard]] bool move(const Piece& tracked, std::size_t part);
     [[nodiscard]] bool move_whole(const Piece& piece, std::size_t part);
 
     DistanceState& state_;
     StarDeviation deviation_;
-    double bound_ = 0;  ///< of the parts to the original surface
     std::vector<Part> parts_;
     std::vector<std::size_t> part_of_;  ///< of a triangle of the star: the one after in which it goes on
     std::vector<Moved> moved_;

@@ -84,6 +84,18 @@ double StarDeviation::at_crossings() const {
     return largest;
 }
 
+/// Does a side of t have the other triangle beyond it?
+bool StarDeviation::is_separated(const Triangle& t, const Triangle& other) {
+    const auto is_beyond = [&](const Place& p, const Place& q) {
+        return twice_area(p, q, other.a) <= 0 && twice_area(p, q, other.b) <= 0 && twice_area(p, q, other.c) <= 0;
+    };
+    return is_beyond(t.a, t.b) || is_beyond(t.b, t.c) || is_beyond(t.c, t.a);
+}
+
+bool StarDeviation::overlap(std::size_t i, std::size_t j) const {
+    return !is_separated(before_[i], after_[j]) && !is_separated(after_[j], before_[i]);
+}
+
 double StarDeviation::find(const Star& star, const SurfaceState& state) {
     if (!project(star, state)) return kInfinity;
     double largest = std::max(height_difference(gone_, after_), height_difference(kept_, after_));

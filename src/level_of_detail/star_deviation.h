@@ -17,6 +17,9 @@ public:
     /// that are linear in the pieces into which their sides cut the polygon. The difference is largest in a corner of a piece: an old
     /// point, the new one, or where a side before crosses a side after.
     [[nodiscard]] double find(const Star& star, const SurfaceState& state);
+    /// Behind a finite find(): does triangle i of the star, seen along the direction, have more than a side in common with the j-th of the
+    /// triangles after?
+    [[nodiscard]] bool overlap(std::size_t i, std::size_t j) const;
 
 private:
     struct Place {
@@ -25,6 +28,7 @@ private:
     struct Triangle {
         Place a, b, c;
     };
+    [[nodiscard]] static bool is_separated(const Triangle& t, const Triangle& other);
     [[nodiscard]] bool project(const Star& star, const SurfaceState& state);
     [[nodiscard]] static double height_difference(const Place& p, const std::vector<Triangle>& triangles);
     [[nodiscard]] double at_crossings() const;
