@@ -232,8 +232,8 @@ class Atlas:
     # One isovalue.
 
     def surface(self, tau: float, *, objects: Sequence[int] = (), contours: Sequence[int] = (), boundary: str = "closed",
-                style: str = "compact", shell: str = "all", normals: bool = True, ids: bool = True, progress: Progress = None,
-                threads: int = 0) -> Mesh:
+                style: str = "compact", shell: str = "all", normals: bool = True, ids: bool = True, simplify: Optional[float] = None,
+                triangles: int = 0, progress: Progress = None, threads: int = 0) -> Mesh:
         """The surface at an isovalue, a closed mesh with points (x, y, z); of 2D volumes closed curves.
 
         Parameters
@@ -253,6 +253,10 @@ class Atlas:
         normals : bool
         ids : bool
             False: without ``object_ids`` and ``contour_ids``, in about half the time.
+        simplify : float, optional
+            Fewer triangles, at most so many voxels from the exact surface, and back, with the same topology.
+        triangles : int
+            Simplify to this number of triangles, not fewer; without ``simplify`` at any distance.
 
         Raises
         ------
@@ -260,12 +264,14 @@ class Atlas:
             tau is outside the range of the samples, or there is no such object or contour.
         """
         return self._extract(self._source.stored(float(tau)), objects=objects, contours=contours, boundary=boundary, style=style, shell=shell,
-                             normals=normals, ids=ids, progress=progress, threads=threads)
+                             normals=normals, ids=ids, simplify=simplify, triangles=triangles, progress=progress, threads=threads)
 
     def _extract(self, tau: float, *, objects: Sequence[int] = (), contours: Sequence[int] = (), boundary: str, style: str, shell: str,
-                 normals: bool, ids: bool = True, progress: Progress, threads: int) -> Mesh:
+                 normals: bool, ids: bool = True, simplify: Optional[float] = None, triangles: int = 0, progress: Progress,
+                 threads: int) -> Mesh:
         chosen = [[int(i) for i in given] for given in (objects, contours)]
-        return Mesh(self._source.extract(tau, chosen[0], chosen[1], (boundary, style, shell), normals, ids, call(progress, threads)))
+        return Mesh(self._source.extract(tau, chosen[0], chosen[1], (boundary, style, shell), normals, ids,
+                                         None if simplify is None else float(simplify), int(triangles), call(progress, threads)))
 
     save_evolution = _save_evolution
 

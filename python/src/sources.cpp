@@ -1,11 +1,14 @@
 // The class Source: surfaces, cuts and labels at isovalues. Isovalues are stored ones unless a name says "reported".
 #include <algorithm>
+#include <limits>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include <isoatlas/cavities.h>
 #include <isoatlas/evolution_file.h>
 #include <isoatlas/isovalue.h>
+#include <isoatlas/level_of_detail.h>
 #include <isoatlas/nested_labels.h>
 #include <isoatlas/output.h>
 #include <isoatlas/segmentation.h>
@@ -39,12 +42,21 @@ std::shared_ptr<Source> of_store(const std::string& path, const std::optional<st
 
 std::shared_ptr<Surface> extract(const std::shared_ptr<Source>& source, double tau, const Indices& objects, const Indices& contours,
                                  const std::tuple<std::string, std::string, std::string>& words, bool normals, bool ids,
-                                 const CallOptions& call) {
+                                 const std::optional<double>& voxels, std::int64_t triangles, const CallOptions& call) {
     SurfaceOptions options;
     const auto& [boundary, style, shell] = words;
     options.boundary = boundary_of(boundary), options.style = style_of(style), options.shell = shell_of(shell);
     options.objects = objects, options.contours = contours, options.normals = normals, options.ids = ids;
-    return long_call(call, [=](const Context& context) { return std::make_shared<Surface>(source->extract(tau, options, context)); });
+    return long_call(call, [=](const Context& context) {
+        Surface surface = source->extract(tau, options, context);
+        if (voxels || triangles > 0) {
+            const SimplificationOptions simplification{.max_distance = voxels.value_or(std::numeric_limits<double>::infinity()),
+                                                       .triangles = triangles};
+            const VolumeInfo& info = source->info();
+            surface = simplify_surface(surface, info.geometry, info.extent, simplification, context).surface;
+        }
+        return std::make_shared<Surface>(std::move(surface));
+    });
 }
 
 /// Progress of a step as a part of the whole.
@@ -219,7 +231,7 @@ void add_sources(py::module_& module) {
                  return long_call(call, [=](const Context& context) { return std::const_pointer_cast<Volume>(source->volume(context)); });
              })
         .def("extract", &extract, py::arg("tau"), py::arg("objects"), py::arg("contours"), py::arg("words"), py::arg("normals"),
-             py::arg("ids"), py::arg("call"))
+             py::arg("ids"), py::arg("simplify"), py::arg("triangles"), py::arg("call"))
         .def("write_evolution", &write_evolution, py::arg("path"), py::arg("taus"), py::arg("words"), py::arg("normals"), py::arg("space"),
              py::arg("call"))
         .def("cut", &cut_at, py::arg("tau"), py::arg("call"))

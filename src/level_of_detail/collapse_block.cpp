@@ -200,7 +200,8 @@ private:
 
 }  // namespace
 
-std::int64_t collapse_block(SurfaceState& state, const SurfaceBlock& block, const CollapseLimits& limits, const CallerLooks& stop_if_asked) {
+std::int64_t collapse_block(SurfaceState& state, const SurfaceBlock& block, const CollapseLimits& limits,
+                            const CallerLooks& stop_if_asked) {
     BlockCollapser collapser(state, block, limits);
     return collapser.run(stop_if_asked);
 }

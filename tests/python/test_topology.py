@@ -53,6 +53,25 @@ def test_euler_number_is_that_of_the_surface(seed):
         assert of_mesh == 2 * isoatlas.euler_number(array, level)
 
 
+def test_simplified_surfaces_have_the_same_euler_number():
+    array = smooth((24, 25, 26), 3)
+    atlas = isoatlas.open(array)
+
+    def euler_number(mesh):
+        edges = np.unique(np.sort(mesh.triangles[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2)), axis=0)
+        return len(mesh.points) - len(edges) + len(mesh)
+
+    for level in levels_of(array, 3):
+        exact = atlas.surface(level)
+        light, fewer = atlas.surface(level, simplify=0.5), atlas.surface(level, triangles=len(exact) // 2)
+        assert len(light) < len(exact) and len(exact) // 2 <= len(fewer) < len(exact)
+        assert euler_number(light) == euler_number(fewer) == euler_number(exact)
+        assert len(light.normals) == len(light.points)
+        tree = spatial.cKDTree(exact.points)
+        assert tree.query(light.points)[0].max() < 0.5 + 1  # of the triangles, not of their corners: at most an edge more
+        assert set(light.contour_ids) == set(exact.contour_ids)
+
+
 def test_betti_numbers_of_known_shapes():
     z, y, x = np.mgrid[-12:13, -12:13, -12:13]
     radius = np.sqrt(x**2 + y**2 + z**2)

@@ -3,6 +3,8 @@
 #include <rapidcheck/gtest.h>
 
 #include <algorithm>
+#include <cmath>
+#include <iostream>
 #include <limits>
 
 #include "isoatlas/level_of_detail.h"
@@ -108,6 +110,87 @@ void simplified_surfaces_have_the_same_bytes_for_any_threads() {
     RC_ASSERT(one.triangles == two.triangles);
     RC_ASSERT(one.normals == two.normals);
     RC_ASSERT(one.contour == two.contour);
+}
+
+/// Volumes of several blocks, of shapes that decimators break.
+struct Shape {
+    const char* name;
+    isoatlas::Extent extent;
+    double (*sample)(double x, double y, double z);
+    double tau;
+};
+
+double hashed(double x, double y, double z) {
+    std::uint64_t bits = static_cast<std::uint64_t>(x) * 0x9e3779b97f4a7c15U ^ static_cast<std::uint64_t>(y) * 0xc2b2ae3d27d4eb4fU ^
+                         static_cast<std::uint64_t>(z) * 0x165667b19e3779f9U;
+    bits = (bits ^ bits >> 31) * 0xbf58476d1ce4e5b9U;
+    return static_cast<double>((bits ^ bits >> 29) >> 11) * 0x1p-53;
+}
+
+const Shape kShapes[] = {
+    {"the tube of the dissertation's condition",
+     {3, {5, 5, 9}},
+     [](double x, double y, double z) { return 10 - 5 * (std::abs(x - 2) + std::abs(y - 2)) - 0.01 * z; },
+     7},
+    {"a tube of one voxel through many blocks",
+     {3, {140, 9, 9}},
+     [](double x, double y, double z) {
+         const double u = y - 4 - 2 * std::sin(x / 9), v = z - 4 - 2 * std::cos(x / 9);
+         return 1.2 - std::sqrt(u * u + v * v);
+     },
+     0.5},
+    {"sheets one voxel apart",
+     {3, {70, 40, 13}},
+     [](double x, double y, double z) { return std::sin(3.14159 * (z + 0.3 * std::sin(x / 7) + 0.3 * std::cos(y / 5))); },
+     0.1},
+    {"nested shells a voxel thin",
+     {3, {45, 45, 45}},
+     [](double x, double y, double z) {
+         const double r = std::sqrt((x - 22) * (x - 22) + (y - 22.3) * (y - 22.3) + (z - 21.8) * (z - 21.8));
+         return std::sin(3.14159 * r / 1.3);
+     },
+     0.2},
+    {"noise", {3, {68, 36, 20}}, [](double x, double y, double z) { return hashed(x, y, z); }, 0.6},
+    {"a smooth surface",
+     {3, {70, 70, 40}},
+     [](double x, double y, double z) { return std::sin(x / 6) * std::cos(y / 7) + std::sin(z / 5) * std::cos(x / 9); },
+     0.3},
+};
+
+isoatlas::Volume volume_of(const Shape& shape) {
+    std::vector<float> samples;
+    for (std::int64_t i = 0; i < shape.extent.voxels(); ++i) {
+        const auto p = shape.extent.voxel(i);
+        samples.push_back(
+            static_cast<float>(shape.sample(static_cast<double>(p[0]), static_cast<double>(p[1]), static_cast<double>(p[2]))));
+    }
+    isoatlas::Volume volume = isoatlas::make_volume<float>(shape.extent, samples);
+    volume.info.geometry.spacing = {0.7, 1.1, 2.5};
+    volume.info.geometry.origin = {-100, 37, 5};
+    const double c = std::cos(0.4), s = std::sin(0.4);
+    volume.info.geometry.direction = {{{c, -s, 0}, {s, c, 0}, {0, 0, 1}}};
+    return volume;
+}
+
+TEST(SimplifiedSurfaces, OfDifficultShapesHold) {
+    for (const Shape& shape : kShapes) {
+        SCOPED_TRACE(shape.name);
+        const isoatlas::Volume volume = volume_of(shape);
+        const Surface exact = isoatlas::extract(volume, shape.tau);
+        const isoatlas::SimplifiedSurface simplified =
+            isoatlas::simplify_surface(exact, volume.info.geometry, volume.info.extent, {}, {.threads = 2});
+        const Surface one = isoatlas::simplify_surface(exact, volume.info.geometry, volume.info.extent, {}, {.threads = 1}).surface;
+        EXPECT_TRUE(one.points == simplified.surface.points && one.triangles == simplified.surface.triangles);
+        isoatlas::Mesh mesh;
+        mesh.points = simplified.surface.points, mesh.triangles = simplified.surface.triangles;
+        mesh.space = exact.space, mesh.unit = exact.unit;
+        isoatlas::SimplifiedOptions how;
+        how.max_distance = 0.5 + 1e-9, how.in_voxels = true;
+        for (const isoatlas::CheckResult& check : verify_simplified(mesh, exact, volume.info, how).checks) {
+            EXPECT_TRUE(check.holds) << check.name << ": " << check.detail;
+        }
+        std::cout << shape.name << ": " << exact.triangles.size() << " -> " << mesh.triangles.size() << " triangles\n";
+    }
 }
 
 RC_GTEST_PROP(SimplifiedSurfaces, HaveTheSameContoursWithinTheDistance, ()) {
