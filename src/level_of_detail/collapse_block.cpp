@@ -122,7 +122,7 @@ private:
 
     bool may_collapse(const Placement& placement) {
         const auto [cost, gone, kept, scaled] = placement;
-        if (!block_.holds(scaled) || !star_.find(mesh_, gone, kept, is_at_rim(gone))) return false;
+        if (!block_.holds(scaled) || !star_.find(mesh_, gone, kept, is_at_rim(gone) && is_at_rim(kept))) return false;
         star_.gone_scaled = state_.scaled[gone], star_.kept_scaled = state_.scaled[kept];
         star_.gone_point = state_.points[gone], star_.kept_point = state_.points[kept];
         star_.new_scaled = scaled;

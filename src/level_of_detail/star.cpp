@@ -13,7 +13,7 @@ void add_once(std::vector<std::uint32_t>& points, std::uint32_t point) {
 
 }  // namespace
 
-bool Star::find(const CollapsibleMesh& mesh, std::uint32_t of_gone, std::uint32_t of_kept, bool gone_is_at_rim) {
+bool Star::find(const CollapsibleMesh& mesh, std::uint32_t of_gone, std::uint32_t of_kept, bool are_at_rim) {
     gone = of_gone, kept = of_kept;
     triangles.clear();
     ring.clear();
@@ -53,8 +53,8 @@ bool Star::find(const CollapsibleMesh& mesh, std::uint32_t of_gone, std::uint32_
         }
         common += is_around_kept ? 1 : 0;
     }
-    if (common_triangles == 2) return common == 2 && (around_gone > 3 || around_kept > 3);  // both 3: a tetrahedron
-    return common_triangles == 1 && gone_is_at_rim && common == 1 && (around_gone > 1 || around_kept > 1);
+    if (common_triangles == 2) return !are_at_rim && common == 2 && (around_gone > 3 || around_kept > 3);  // both 3: a tetrahedron
+    return common_triangles == 1 && are_at_rim && common == 1 && (around_gone > 1 || around_kept > 1);
 }
 
 }  // namespace isoatlas

@@ -25,8 +25,9 @@ struct Star {
     Vec3 gone_point{}, kept_point{}, new_point{};
 
     /// The triangles around an edge. Does its collapse keep the topology? The links of the points share the points opposite of the edge
-    /// and nothing else (Dey et al. 1999); at a rim, beyond which one point more is imagined, only an edge of the rim is collapsed.
-    [[nodiscard]] bool find(const CollapsibleMesh& mesh, std::uint32_t of_gone, std::uint32_t of_kept, bool gone_is_at_rim);
+    /// and nothing else (Dey et al. 1999). Of two points at a rim, beyond which one point more is imagined, only an edge of the rim itself
+    /// is collapsed.
+    [[nodiscard]] bool find(const CollapsibleMesh& mesh, std::uint32_t of_gone, std::uint32_t of_kept, bool are_at_rim);
 };
 
 }  // namespace isoatlas

@@ -140,19 +140,19 @@ const Shape kShapes[] = {
      },
      0.5},
     {"sheets one voxel apart",
-     {3, {70, 40, 13}},
+     {3, {40, 34, 9}},
      [](double x, double y, double z) { return std::sin(3.14159 * (z + 0.3 * std::sin(x / 7) + 0.3 * std::cos(y / 5))); },
      0.1},
     {"nested shells a voxel thin",
-     {3, {45, 45, 45}},
+     {3, {34, 34, 34}},
      [](double x, double y, double z) {
-         const double r = std::sqrt((x - 22) * (x - 22) + (y - 22.3) * (y - 22.3) + (z - 21.8) * (z - 21.8));
+         const double r = std::sqrt((x - 17) * (x - 17) + (y - 17.3) * (y - 17.3) + (z - 16.8) * (z - 16.8));
          return std::sin(3.14159 * r / 1.3);
      },
      0.2},
-    {"noise", {3, {68, 36, 20}}, [](double x, double y, double z) { return hashed(x, y, z); }, 0.6},
+    {"noise", {3, {40, 34, 8}}, [](double x, double y, double z) { return hashed(x, y, z); }, 0.6},
     {"a smooth surface",
-     {3, {70, 70, 40}},
+     {3, {40, 40, 30}},
      [](double x, double y, double z) { return std::sin(x / 6) * std::cos(y / 7) + std::sin(z / 5) * std::cos(x / 9); },
      0.3},
 };
