@@ -47,7 +47,7 @@ public:
         is_heap_ = true;
         const auto before = static_cast<std::int64_t>(block_.inside.size());
         left_ = before;
-        for (int edges = 0; !heap_.empty() && left_ > limits_.triangles; ++edges) {
+        for (int edges = 0; !heap_.empty() && left_ >= limits_.triangles + 2; ++edges) {  // two at a time
             if (edges % kLook == 0) stop_if_asked();
             std::ranges::pop_heap(heap_, is_later);
             const Entry entry = heap_.back();
