@@ -29,9 +29,9 @@ struct DistanceBounds {
 
 struct SimplifiedOptions {
     std::optional<double> max_distance{};  ///< above 0: distance_is_within, in both directions; none: only measured
-    bool in_voxels = false;                ///< max_distance counts steps between samples, not lengths of the volume
-    PointSpace space = PointSpace::lps;    ///< of the points of a mesh that does not say it, as the exact surface would be written
-    double tolerance = 0.001;              ///< voxels (of the smallest spacing): how closely distances are enclosed
+    bool in_voxels = false;  ///< max_distance counts steps between samples, of uneven axes the smallest, not lengths of the volume
+    PointSpace space = PointSpace::lps;  ///< of the points of a mesh that does not say it, as the exact surface would be written
+    double tolerance = 0.001;            ///< voxels (of the smallest spacing): how closely distances are enclosed
 };
 
 struct SimplifiedReport {

@@ -50,4 +50,18 @@ private:
     double determinant_;
 };
 
+/// The grid with even steps along every axis, the smallest of the axis: its positions are an affine map of space, under which triangles
+/// stay flat.
+[[nodiscard]] inline Geometry with_smallest_steps(Geometry geometry) {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        const std::vector<double>& along = geometry.coordinates[axis];
+        if (along.size() < 2) continue;
+        double least = along[1] - along[0];
+        for (std::size_t i = 2; i < along.size(); ++i) least = std::min(least, along[i] - along[i - 1]);
+        geometry.spacing[axis] = least;
+    }
+    geometry.coordinates = {};
+    return geometry;
+}
+
 }  // namespace isoatlas

@@ -57,7 +57,7 @@ bool StarDeviation::project(const Star& star, const SurfaceState& state) {
         sides_after_.push_back({new_, b});
         turns += b.v < 0 && c.v >= 0 ? 1 : 0;
     }
-    return turns == 1;
+    return turns == 1 && after_.size() == star.ring.size();  // else it is at a rim, which moves
 }
 
 double StarDeviation::height_difference(const Place& p, const std::vector<Triangle>& triangles) {

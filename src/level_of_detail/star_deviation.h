@@ -9,7 +9,8 @@ namespace isoatlas {
 
 class StarDeviation {
 public:
-    /// A distance at most from every point of the triangles after to those before, and back; infinity where they do not all face one way.
+    /// A distance at most from every point of the triangles after to those before, and back; infinity where they do not all face one
+    /// way, and at a rim.
     /// state.scaled has the new place of the kept point; the star the old ones.
     ///
     /// Seen along a direction n towards which all triangles before and after face, the triangles after go once around their apex, so that

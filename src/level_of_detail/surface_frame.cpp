@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "field/voxel_positions.h"
 #include "geometry/orientation.h"
 #include "isoatlas/error.h"
 #include "mesh/place_hits.h"
@@ -33,15 +34,6 @@ Vec3 times(const Mat3& m, const Vec3& p) {
     return result;
 }
 
-/// The smallest step between samples along an axis.
-double step_of(const Geometry& geometry, std::size_t axis) {
-    const std::vector<double>& coordinates = geometry.coordinates[axis];
-    if (coordinates.size() < 2) return geometry.spacing[axis];
-    double least = std::abs(coordinates[1] - coordinates[0]);
-    for (std::size_t i = 2; i < coordinates.size(); ++i) least = std::min(least, std::abs(coordinates[i] - coordinates[i - 1]));
-    return least;
-}
-
 /// Along an axis: the first sample and the last one, where open surfaces end, and the caps just beyond them.
 std::array<double, 4> planes_of(const Geometry& geometry, const Extent& extent, std::size_t axis) {
     const std::vector<double>& coordinates = geometry.coordinates[axis];
@@ -62,8 +54,7 @@ SurfaceFrame::SurfaceFrame(const Surface& surface, const Geometry& geometry, con
     : unit_(unit), origin_(geometry.origin) {
     if (determinant(geometry.direction) == 0) throw Error(ErrorKind::usage, {.what = "the axes of the geometry do not span space"});
     const Mat3 to_axes = inverse(geometry.direction);  // lengths along the axes
-    Vec3 step{};
-    for (std::size_t axis = 0; axis < 3; ++axis) step[axis] = step_of(geometry, axis);
+    const Vec3 step = with_smallest_steps(geometry).spacing;
     step_ = unit == DistanceUnit::voxel ? 1 : std::min({step[0], step[1], step[2]});
     for (std::size_t row = 0; row < 3; ++row) {
         for (std::size_t axis = 0; axis < 3; ++axis) {

@@ -78,14 +78,10 @@ public:
     }
 
 private:
-    [[nodiscard]] double smallest_spacing() const {
-        double smallest = std::ranges::min(info_.geometry.spacing);
-        for (const std::vector<double>& along : info_.geometry.coordinates)
-            for (std::size_t i = 1; i < along.size(); ++i) smallest = std::min(smallest, along[i] - along[i - 1]);
-        return smallest;
-    }
+    [[nodiscard]] double smallest_spacing() const { return std::ranges::min(with_smallest_steps(info_.geometry).spacing); }
     [[nodiscard]] BigVector<Vec3> in_voxels(std::span<const Vec3> points) const {
-        const VoxelPositions positions(info_.geometry);
+        const Geometry even = with_smallest_steps(info_.geometry);
+        const VoxelPositions positions(even);
         BigVector<Vec3> result(points.size());
         std::ranges::transform(points, result.begin(), [&](const Vec3& point) { return positions.of(point); });
         return result;
