@@ -35,7 +35,7 @@ struct SimplifiedSurface {
 /// docs/theory/10-level-of-detail.md has the proofs. Normals are those of the surface at the nearest place, ids those of the points.
 /// `geometry` and `extent` are those of the volume. Curves (2D) are returned as they are. Throws Error: usage (max_distance not positive,
 /// a negative number of triangles, axes that do not span space), resource (2^30 triangles or more), cancelled. The same bytes for any
-/// number of threads. Cost: some 20 us and 250 bytes a triangle.
+/// number of threads. Cost: some 30 us and 550 bytes a triangle.
 [[nodiscard]] SimplifiedSurface simplify_surface(const Surface& surface, const Geometry& geometry, const Extent& extent,
                                                  const SimplificationOptions& options = {}, const Context& context = {});
 
