@@ -11,6 +11,7 @@
 #include <cstdlib>
 #include <system_error>
 
+#include "base/library_pages.h"
 #include "base/memory_limit.h"
 #include "base/pages.h"
 #include "base/refusals.h"
@@ -80,6 +81,8 @@ void MemoryBudgets::start() {
     }
     keep_heap_small();
     if (statm_ < 0) statm_ = ::open("/proc/self/statm", O_RDONLY | O_CLOEXEC);
+    program_at_most_ = resident_memory(statm_).of_files;
+    release_library_pages();
     program_ = resident_memory(statm_).of_files;
 }
 
@@ -217,7 +220,9 @@ void MemoryBudgets::make_room(std::int64_t bytes) {
     const std::lock_guard lock(mutex_);
     if (unmap_in_turn(bytes, false)) return;
     // A new array of one budget may ask for more than there can be: not at the cost of the others.
-    (void)unmap_in_turn(all_.size() > 1 ? std::min<std::int64_t>(bytes, total_ / 8) : bytes, true);
+    if (unmap_in_turn(all_.size() > 1 ? std::min<std::int64_t>(bytes, total_ / 8) : bytes, true)) return;
+    program_ =
+        std::min(resident_memory(statm_).of_files, program_at_most_);  // no array is mapped: what is left, the program has used again
 }
 
 /// Part after part of the arrays of one budget after the other, the more the larger its share. False: all is unmapped.

@@ -84,7 +84,8 @@ private:
     bool stop_ = false;
     int alive_ = 0;
     std::atomic<std::int64_t> total_ = 0, usable_ = 0;  // sums of the budgets alive
-    std::int64_t program_ = 0;                          // resident bytes of files before there were arrays
+    std::int64_t program_ = 0;                          // resident bytes of files that are no arrays
+    std::int64_t program_at_most_ = 0;                  // these when the first budget began
     std::atomic<int> statm_ = -1;                       // opened once: a check may still read it when a budget ends
     std::vector<std::unique_ptr<Arrays>> all_;          // also those that outlive their budgets
     std::size_t first_ = 0;                             // of them to be unmapped next
