@@ -6,30 +6,25 @@
 #include <vector>
 
 #include "base/parallel.h"
+#include "geometry/vectors.h"
 #include "isoatlas/surface.h"
 
 namespace isoatlas {
 namespace {
 
-using Point = std::array<double, 3>;
-
 constexpr std::int64_t kBlock = std::int64_t{1} << 14;  // facets: fixed, for the order of the sums
 
-Point minus(const Point& p, const Point& q) { return {p[0] - q[0], p[1] - q[1], p[2] - q[2]}; }
-Point cross(const Point& p, const Point& q) { return {p[1] * q[2] - p[2] * q[1], p[2] * q[0] - p[0] * q[2], p[0] * q[1] - p[1] * q[0]}; }
-double dot(const Point& p, const Point& q) { return p[0] * q[0] + p[1] * q[1] + p[2] * q[2]; }
-
 /// The triangle, and the tetrahedron between it and the centre.
-SurfaceSize size_of(const Surface& surface, const std::array<std::int64_t, 3>& triangle, const Point& centre) {
+SurfaceSize size_of(const Surface& surface, const std::array<std::int64_t, 3>& triangle, const Vec3& centre) {
     const auto corner = [&](std::size_t i) { return minus(surface.points[static_cast<std::size_t>(triangle[i])], centre); };
-    const Point a = corner(0), b = corner(1), c = corner(2), normal = cross(minus(b, a), minus(c, a));
+    const Vec3 a = corner(0), b = corner(1), c = corner(2), normal = cross(minus(b, a), minus(c, a));
     return {std::sqrt(dot(normal, normal)) / 2, dot(a, cross(b, c)) / 6};
 }
 
 /// The segment, and the triangle between it and the centre. The High side is on the left.
-SurfaceSize size_of(const Surface& surface, const std::array<std::int64_t, 2>& segment, const Point& centre) {
+SurfaceSize size_of(const Surface& surface, const std::array<std::int64_t, 2>& segment, const Vec3& centre) {
     const auto end = [&](std::size_t i) { return minus(surface.points[static_cast<std::size_t>(segment[i])], centre); };
-    const Point a = end(0), b = end(1), along = minus(b, a), around = cross(a, b);
+    const Vec3 a = end(0), b = end(1), along = minus(b, a), around = cross(a, b);
     return {std::sqrt(dot(along, along)), around[2] / 2};
 }
 

@@ -23,6 +23,8 @@ public:
         }
         determinant_ = m[0][0] * inverse_[0][0] + m[1][0] * inverse_[0][1] + m[2][0] * inverse_[0][2];
     }
+    /// Do the axes span space?
+    [[nodiscard]] bool is_unique() const { return determinant_ != 0; }
     [[nodiscard]] Vec3 of(const Vec3& physical) const {
         Vec3 voxel;
         for (std::size_t axis = 0; axis < 3; ++axis) {

@@ -7,7 +7,7 @@
 #include <array>
 #include <cmath>
 
-#include "isoatlas/vec3.h"
+#include "geometry/vectors.h"
 
 namespace isoatlas {
 
@@ -20,8 +20,6 @@ inline constexpr int kUnsure = 2;
 
 /// Of a rounded value with an error below `error`; kUnsure also where something is infinite.
 inline int sign_or_unsure(double value, double error) { return value > error ? 1 : value < -error ? -1 : kUnsure; }
-
-inline Vec3 minus(const Vec3& a, const Vec3& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
 
 /// As orientation(a, b, c, d), or kUnsure. Of the same a, b, c in a row a compiler computes the parts once.
 inline int quick_orientation(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {

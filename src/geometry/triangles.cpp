@@ -121,10 +121,6 @@ bool is_folded(const Triangle& s, const Triangle& t) {
     return turn(s[2]) * turn(t[2]) > 0 && exact_orientation(s[0], s[1], s[2], t[2]) == 0;
 }
 
-double dot(const Vec3& a, const Vec3& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-
-Vec3 cross(const Vec3& a, const Vec3& b) { return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]}; }
-
 Vec3 between(const Vec3& a, const Vec3& step, double part) { return {a[0] + part * step[0], a[1] + part * step[1], a[2] + part * step[2]}; }
 
 /// Of a segment, to the origin.

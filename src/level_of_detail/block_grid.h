@@ -38,11 +38,12 @@ private:
 };
 
 struct SurfaceBlock {
-    const BlockGrid* grid;
-    BlockGrid::Place place;
+    const BlockGrid* grid = nullptr;  ///< null: the block is a box
+    BlockGrid::Place place{};
+    BoundingBox box{};
     std::vector<std::uint32_t> inside;    ///< triangles whose points lie in the block
     std::vector<std::uint32_t> crossing;  ///< triangles that reach into the block and beyond
-    [[nodiscard]] bool holds(const Vec3& p) const { return grid->of(p) == place; }
+    [[nodiscard]] bool holds(const Vec3& p) const { return grid ? grid->of(p) == place : box.squared_distance(p) == 0; }
 };
 
 /// The blocks that have triangles; the points of triangles that reach beyond their block become locked. The grid must live as long.

@@ -50,6 +50,7 @@ public:
         return {points_[static_cast<std::size_t>(a)], points_[static_cast<std::size_t>(b)], points_[static_cast<std::size_t>(c)]};
     }
 
+    [[nodiscard]] const std::array<std::int64_t, 3>& triangle(std::size_t i) const { return triangles_[i]; }
     [[nodiscard]] const Vec3& point(std::size_t i) const { return points_[i]; }
 
     struct Nearest {

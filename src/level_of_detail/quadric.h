@@ -6,15 +6,9 @@
 #include <array>
 #include <cmath>
 
-#include "geometry/orientation.h"
+#include "geometry/vectors.h"
 
 namespace isoatlas {
-
-inline Vec3 plus(const Vec3& a, const Vec3& b) { return {a[0] + b[0], a[1] + b[1], a[2] + b[2]}; }
-inline Vec3 cross(const Vec3& a, const Vec3& b) {
-    return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
-inline double dot(const Vec3& a, const Vec3& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
 /// x -> x A x + 2 b x + c, with A symmetric: xx, yy, zz, xy, xz, yz.
 template <class Real>

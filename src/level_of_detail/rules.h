@@ -31,4 +31,9 @@ struct SurfaceState {
     DistanceState distance;
 };
 
+/// Marks the points of edges with one triangle: kRim.
+void mark_rims(const CollapsibleMesh& mesh, Array<std::uint16_t>& faces);
+/// The quadric of a point: that of the triangles around it.
+void set_quadric(SurfaceState& state, std::uint32_t point);
+
 }  // namespace isoatlas

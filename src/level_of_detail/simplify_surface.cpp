@@ -8,11 +8,11 @@
 #include "base/cancel.h"
 #include "base/parallel.h"
 #include "geometry/deviation.h"
-#include "geometry/triangles.h"
 #include "isoatlas/environment.h"
 #include "isoatlas/error.h"
 #include "isoatlas/level_of_detail.h"
 #include "level_of_detail/collapse_block.h"
+#include "level_of_detail/normal_near.h"
 #include "level_of_detail/surface_frame.h"
 
 namespace isoatlas {
@@ -40,24 +40,6 @@ std::vector<Pass> passes(double step, double tolerance) {
     return all;
 }
 
-/// The normal of the surface at a point beside it: that of its nearest triangle there.
-std::array<float, 3> normal_near(const Surface& surface, const OriginalSurface& original, const Vec3& scaled, double step) {
-    OriginalSurface::Nearest nearest{kNone, 0};
-    for (double distance = step; nearest.triangle == kNone; distance *= 2) nearest = original.nearest(scaled, distance);
-    const TrianglePoints corners = original.corners(nearest.triangle);
-    const NearestPoint place = nearest_point(scaled, corners);
-    Vec3 sum{};
-    for (std::size_t k = 0; k < 3; ++k) {  // weights: areas opposite of the corners
-        const Vec3 n = cross(minus(corners[(k + 1) % 3], place.point), minus(corners[(k + 2) % 3], place.point));
-        const double weight = std::sqrt(dot(n, n)) + 1e-300;
-        const std::array<float, 3>& normal = surface.normals[static_cast<std::size_t>(surface.triangles[nearest.triangle][k])];
-        for (std::size_t axis = 0; axis < 3; ++axis) sum[axis] += weight * normal[axis];
-    }
-    const double length = std::sqrt(dot(sum, sum));
-    if (!(length > 0)) return surface.normals[static_cast<std::size_t>(surface.triangles[nearest.triangle][0])];
-    return {static_cast<float>(sum[0] / length), static_cast<float>(sum[1] / length), static_cast<float>(sum[2] / length)};
-}
-
 /// The points that the triangles use, in their order.
 Surface remaining(const Surface& surface, const SurfaceState& state, const OriginalSurface& original) {
     const CollapsibleMesh& mesh = state.mesh;
@@ -73,7 +55,7 @@ Surface remaining(const Surface& surface, const SurfaceState& state, const Origi
         result.points.push_back(state.points[point]);
         if (!surface.normals.empty()) {
             const bool has_moved = state.scaled[point] != original.point(point);
-            result.normals.push_back(has_moved ? normal_near(surface, original, state.scaled[point], state.frame->step())
+            result.normals.push_back(has_moved ? normal_near(original, surface.normals, state.scaled[point], state.frame->step())
                                                : surface.normals[point]);
         }
         if (!surface.object.empty()) result.object.push_back(surface.object[point]);
@@ -87,18 +69,6 @@ Surface remaining(const Surface& surface, const SurfaceState& state, const Origi
     return result;
 }
 
-/// Marks the points of edges with one triangle.
-void mark_rims(const CollapsibleMesh& mesh, Array<std::uint16_t>& faces) {
-    for (std::uint32_t point = 0; point < mesh.points(); ++point) {
-        mesh.for_fan(point, [&](std::uint32_t corner) {
-            const std::uint32_t next = mesh.point(next_corner(corner));
-            bool is_inner = false;
-            mesh.for_fan(point, [&](std::uint32_t other) { is_inner = is_inner || mesh.point(last_corner(other)) == next; });
-            if (!is_inner) faces[point] |= kRim, faces[next] |= kRim;
-        });
-    }
-}
-
 SurfaceState state_of(const Surface& surface, const SurfaceFrame& frame) {
     SurfaceState state{.mesh = CollapsibleMesh(surface.triangles, surface.points.size()),
                        .frame = &frame,
@@ -109,12 +79,7 @@ SurfaceState state_of(const Surface& surface, const SurfaceFrame& frame) {
                        .locked = Array<std::uint8_t>(surface.points.size(), 0),
                        .failed = Array<std::uint8_t>(surface.triangles.size(), 0),
                        .distance = {}};
-    for (std::uint32_t point = 0; point < state.points.size(); ++point) {
-        state.mesh.for_fan(point, [&](std::uint32_t corner) {
-            state.quadrics[point].add_triangle(minus(state.scaled[state.mesh.point(next_corner(corner))], state.scaled[point]),
-                                               minus(state.scaled[state.mesh.point(last_corner(corner))], state.scaled[point]));
-        });
-    }
+    for (std::uint32_t point = 0; point < state.points.size(); ++point) set_quadric(state, point);
     mark_rims(state.mesh, state.faces);
     return state;
 }

@@ -3,36 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include "field/voxel_positions.h"
-#include "geometry/orientation.h"
 #include "isoatlas/error.h"
 #include "mesh/place_hits.h"
 
 namespace isoatlas {
 namespace {
-
-double determinant(const Mat3& m) {
-    return m[0][0] * (m[1][1] * m[2][2] - m[1][2] * m[2][1]) - m[0][1] * (m[1][0] * m[2][2] - m[1][2] * m[2][0]) +
-           m[0][2] * (m[1][0] * m[2][1] - m[1][1] * m[2][0]);
-}
-
-Mat3 inverse(const Mat3& m) {
-    const double scale = 1 / determinant(m);
-    Mat3 result{};
-    for (std::size_t row = 0; row < 3; ++row) {
-        for (std::size_t column = 0; column < 3; ++column) {
-            const std::size_t a = (column + 1) % 3, b = (column + 2) % 3, c = (row + 1) % 3, d = (row + 2) % 3;
-            result[row][column] = scale * (m[a][c] * m[b][d] - m[a][d] * m[b][c]);
-        }
-    }
-    return result;
-}
-
-Vec3 times(const Mat3& m, const Vec3& p) {
-    Vec3 result{};
-    for (std::size_t row = 0; row < 3; ++row) result[row] = m[row][0] * p[0] + m[row][1] * p[1] + m[row][2] * p[2];
-    return result;
-}
 
 /// Along an axis: the first sample and the last one, where open surfaces end, and the caps just beyond them.
 std::array<double, 4> planes_of(const Geometry& geometry, const Extent& extent, std::size_t axis) {
@@ -46,34 +21,28 @@ std::array<double, 4> planes_of(const Geometry& geometry, const Extent& extent, 
 
 }  // namespace
 
-Vec3 SurfaceFrame::scaled(const Vec3& point) const {
-    return unit_ == DistanceUnit::physical ? point : times(to_voxels_, minus(point, origin_));
-}
+Vec3 SurfaceFrame::scaled(const Vec3& point) const { return unit_ == DistanceUnit::physical ? point : voxels_.of(point); }
 
 SurfaceFrame::SurfaceFrame(const Surface& surface, const Geometry& geometry, const Extent& extent, DistanceUnit unit)
-    : unit_(unit), origin_(geometry.origin) {
-    if (determinant(geometry.direction) == 0) throw Error(ErrorKind::usage, {.what = "the axes of the geometry do not span space"});
-    const Mat3 to_axes = inverse(geometry.direction);  // lengths along the axes
-    const Vec3 step = with_smallest_steps(geometry).spacing;
+    : unit_(unit), even_(with_smallest_steps(geometry)), voxels_(even_) {
+    if (!voxels_.is_unique()) throw Error(ErrorKind::usage, {.what = "the axes of the geometry do not span space"});
+    const Vec3 step = even_.spacing;
     step_ = unit == DistanceUnit::voxel ? 1 : std::min({step[0], step[1], step[2]});
     for (std::size_t row = 0; row < 3; ++row) {
-        for (std::size_t axis = 0; axis < 3; ++axis) {
-            to_space_[row][axis] = geometry.direction[row][axis] * step[axis];
-            to_voxels_[row][axis] = to_axes[row][axis] / step[row];
-        }
+        for (std::size_t axis = 0; axis < 3; ++axis) to_space_[row][axis] = geometry.direction[row][axis] * step[axis];
     }
     scaled_.resize(surface.points.size());
     faces_.assign(surface.points.size(), 0);
     for (std::size_t i = 0; i < scaled_.size(); ++i) {
-        const Vec3 along = times(to_axes, minus(surface.points[i], origin_));
+        const Vec3 voxel = voxels_.of(surface.points[i]);
         for (std::size_t axis = 0; axis < 3; ++axis) {
             const std::array<double, 4> planes = planes_of(geometry, extent, axis);
             for (std::size_t plane = 0; plane < 4; ++plane) {
-                const bool is_in_plane = std::abs(along[axis] - planes[plane]) <= 1e-5 * step[axis];
+                const bool is_in_plane = std::abs(voxel[axis] * step[axis] - planes[plane]) <= 1e-5 * step[axis];
                 faces_[i] = static_cast<std::uint16_t>(faces_[i] | (is_in_plane ? 1U << (4 * axis + plane) : 0U));
             }
         }
-        scaled_[i] = scaled(surface.points[i]);
+        scaled_[i] = unit == DistanceUnit::physical ? surface.points[i] : voxel;
     }
 }
 

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <span>
 
+#include "field/voxel_positions.h"
 #include "isoatlas/array.h"
 #include "isoatlas/level_of_detail.h"
 
@@ -15,6 +16,9 @@ inline constexpr std::uint16_t kRim = 1U << 15;
 class SurfaceFrame {
 public:
     SurfaceFrame(const Surface& surface, const Geometry& geometry, const Extent& extent, DistanceUnit unit);
+    SurfaceFrame(const SurfaceFrame&) = delete;
+    SurfaceFrame& operator=(const SurfaceFrame&) = delete;
+    ~SurfaceFrame() = default;
 
     /// The points, where distances are in the unit: an affine map of the points of the surface.
     [[nodiscard]] std::span<const Vec3> scaled() const { return scaled_; }
@@ -26,7 +30,7 @@ public:
     /// The point of the surface that lies at a scaled one.
     [[nodiscard]] Vec3 physical(const Vec3& scaled) const {
         if (unit_ == DistanceUnit::physical) return scaled;
-        Vec3 point = origin_;
+        Vec3 point = even_.origin;
         for (std::size_t row = 0; row < 3; ++row) {
             for (std::size_t axis = 0; axis < 3; ++axis) point[row] += to_space_[row][axis] * scaled[axis];
         }
@@ -37,8 +41,9 @@ private:
     Array<Vec3> scaled_;
     double step_ = 1;
     DistanceUnit unit_;
-    Vec3 origin_;
-    Mat3 to_space_{}, to_voxels_{};
+    Geometry even_;
+    VoxelPositions voxels_;
+    Mat3 to_space_{};
     Array<std::uint16_t> faces_;
 };
 

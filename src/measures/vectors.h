@@ -1,20 +1,14 @@
-// Vectors and matrices of three numbers.
+// Directions and matrices of three numbers, beside what geometry/vectors.h has.
 #pragma once
 
 #include <cmath>
 
+#include "geometry/vectors.h"
 #include "isoatlas/volume.h"
 
 namespace isoatlas {
 
-[[nodiscard]] inline Vec3 plus(const Vec3& p, const Vec3& q) { return {p[0] + q[0], p[1] + q[1], p[2] + q[2]}; }
-[[nodiscard]] inline Vec3 minus(const Vec3& p, const Vec3& q) { return {p[0] - q[0], p[1] - q[1], p[2] - q[2]}; }
 [[nodiscard]] inline Vec3 times(double factor, const Vec3& p) { return {factor * p[0], factor * p[1], factor * p[2]}; }
-[[nodiscard]] inline double dot(const Vec3& p, const Vec3& q) { return p[0] * q[0] + p[1] * q[1] + p[2] * q[2]; }
-[[nodiscard]] inline Vec3 cross(const Vec3& p, const Vec3& q) {
-    return {p[1] * q[2] - p[2] * q[1], p[2] * q[0] - p[0] * q[2], p[0] * q[1] - p[1] * q[0]};
-}
-[[nodiscard]] inline double norm(const Vec3& p) { return std::sqrt(dot(p, p)); }
 [[nodiscard]] inline Vec3 unit(const Vec3& p) { return times(1 / norm(p), p); }
 [[nodiscard]] inline Vec3 times(const Mat3& m, const Vec3& p) { return {dot(m[0], p), dot(m[1], p), dot(m[2], p)}; }
 [[nodiscard]] inline Mat3 transposed(const Mat3& m) {

@@ -12,16 +12,13 @@
 #include <vector>
 
 #include "base/cancel.h"
+#include "geometry/vectors.h"
 
 namespace isoatlas {
 namespace {
 
 constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
 constexpr double kMinCosine = 0.25;  ///< between the normals of a triangle before and after
-
-Vec3 difference(const Vec3& a, const Vec3& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
-Vec3 cross(const Vec3& a, const Vec3& b) { return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]}; }
-double dot(const Vec3& a, const Vec3& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
 /// p -> p A p + 2 b p + c. A is symmetric.
 struct Quadric {
@@ -63,7 +60,7 @@ public:
         }
         const Vec3 origin = surface.points.empty() ? Vec3{} : surface.points[0];  // close to the points: quadrics are exact enough
         points_.reserve(surface.points.size());
-        for (const Vec3& point : surface.points) points_.push_back(difference(point, origin));
+        for (const Vec3& point : surface.points) points_.push_back(minus(point, origin));
         next_.assign(corners_.size(), kNone);
         fan_.assign(points_.size(), kNone);
         seen_.assign(points_.size(), 0);
@@ -104,7 +101,7 @@ private:
     }
     void add_plane(std::uint32_t t) {
         const Vec3 &p = place(3 * t), &q = place(3 * t + 1), &r = place(3 * t + 2);
-        Vec3 normal = cross(difference(q, p), difference(r, p));
+        Vec3 normal = cross(minus(q, p), minus(r, p));
         const double twice_area = std::sqrt(dot(normal, normal));
         if (!(twice_area > 0)) return;
         for (double& coordinate : normal) coordinate /= twice_area;
@@ -169,9 +166,9 @@ private:
         for_fan(gone, [&](std::uint32_t corner) {
             const std::uint32_t b = after(corner), c = after(b);
             if (!keeps || corners_[b] == kept || corners_[c] == kept) return;
-            const Vec3 side = difference(place(c), place(b));
-            const Vec3 before = cross(side, difference(points_[gone], place(b)));
-            const Vec3 now = cross(side, difference(points_[kept], place(b)));
+            const Vec3 side = minus(place(c), place(b));
+            const Vec3 before = cross(side, minus(points_[gone], place(b)));
+            const Vec3 now = cross(side, minus(points_[kept], place(b)));
             const double lengths = std::sqrt(dot(before, before) * dot(now, now));
             keeps = lengths > 0 ? dot(before, now) > kMinCosine * lengths : dot(before, before) == 0;
         });

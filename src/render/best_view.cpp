@@ -73,7 +73,7 @@ View view_from(double around, double above, const Vec3& up) {
         if (z[2] <= -1 + 1e-12) return {-v[0], v[1], -v[2]};
         // v + axis x v + axis x (axis x v) / (1 + cos), axis = z x up (Rodrigues).
         const Vec3 axis{-z[1], z[0], 0}, once = cross(axis, v);
-        return along(add(v, once), 1 / (1 + z[2]), cross(axis, once));
+        return along(plus(v, once), 1 / (1 + z[2]), cross(axis, once));
     };
     return {rotated(toward), rotated(above_it)};
 }

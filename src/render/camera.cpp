@@ -18,7 +18,7 @@ CameraRays::CameraRays(const Camera& camera, std::int64_t width, std::int64_t he
     : camera_(camera), width_(static_cast<double>(width)), height_(static_cast<double>(height)), pixel_(camera.height / height_) {
     toward = unit(camera.view.toward);
     right = unit(cross(camera.view.up, toward));
-    if (length(right) == 0) basis_of(toward, right, up);
+    if (norm(right) == 0) basis_of(toward, right, up);
     up = cross(toward, right);
 }
 
@@ -26,11 +26,11 @@ Ray CameraRays::through(double x, double y, double behind) const {
     const Vec3 point = along(along(camera_.target, (x - width_ / 2) * pixel_, right), (height_ / 2 - y) * pixel_, up);
     if (camera_.projection == Projection::orthographic) return {along(point, behind, toward), scale(toward, -1)};
     const Vec3 eye = along(camera_.target, camera_.distance, toward);
-    return {eye, unit(subtract(point, eye))};
+    return {eye, unit(minus(point, eye))};
 }
 
 Vec3 CameraRays::project(const Vec3& point) const {
-    const Vec3 from = subtract(point, camera_.target);
+    const Vec3 from = minus(point, camera_.target);
     const double depth = dot(from, toward);
     const double nearer = camera_.projection == Projection::orthographic ? 1 : camera_.distance / (camera_.distance - depth);
     return {width_ / 2 + nearer * dot(from, right) / pixel_, height_ / 2 - nearer * dot(from, up) / pixel_, depth};
@@ -81,9 +81,9 @@ Camera fit_turntable(const Scene& scene, const View& view, const Vec3& up, const
     const Vec3 axis = unit(up);
     double around = 0, along = 0;
     const auto take = [&](const Vec3& point) {
-        const Vec3 from = subtract(point, box.centre());
+        const Vec3 from = minus(point, box.centre());
         const double height = dot(from, axis);
-        around = std::max(around, length(isoatlas::along(from, -height, axis)));
+        around = std::max(around, norm(isoatlas::along(from, -height, axis)));
         along = std::max(along, std::abs(height));
     };
     for_each_outline_point(scene, take);
@@ -100,7 +100,7 @@ Camera fit_turntable(const Scene& scene, const View& view, const Vec3& up, const
 View rotated(const View& view, const Vec3& axis, double degrees) {
     const Vec3 z = unit(axis);
     const double angle = degrees * std::numbers::pi / 180, cosine = std::cos(angle), sine = std::sin(angle);
-    const auto turn = [&](const Vec3& v) { return add(along(scale(v, cosine), sine, cross(z, v)), scale(z, dot(z, v) * (1 - cosine))); };
+    const auto turn = [&](const Vec3& v) { return plus(along(scale(v, cosine), sine, cross(z, v)), scale(z, dot(z, v) * (1 - cosine))); };
     return {turn(view.toward), turn(view.up)};
 }
 

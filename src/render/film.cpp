@@ -57,12 +57,11 @@ void develop_pixel(const FilmPixel& pixel, const Vec3& behind, bool transparent,
 
 void FilmSum::add(const Seen& seen) {
     ++samples_;
-    glow_ = isoatlas::add(glow_, seen.glow), ambient_ = isoatlas::add(ambient_, seen.shade.ambient),
-    key_ = isoatlas::add(key_, seen.shade.key);
+    glow_ = plus(glow_, seen.glow), ambient_ = plus(ambient_, seen.shade.ambient), key_ = plus(key_, seen.shade.key);
     opacity_ += seen.opacity;
     if (seen.object < 0) return;
     ++hits_;
-    normal_ = isoatlas::add(normal_, seen.normal);
+    normal_ = plus(normal_, seen.normal);
     sky_ += seen.open_sky, key_light_ += seen.open_key, depth_ += seen.depth;
 }
 

@@ -39,9 +39,9 @@ void RaySlices::add(const Ray& ray, double max, std::vector<Layer>& layers) cons
     for (const Plane& plane : planes_) {
         const double speed = dot(ray.direction, plane.normal);
         if (speed == 0) continue;
-        const double t = dot(subtract(plane.corner, ray.origin), plane.normal) / speed;
+        const double t = dot(minus(plane.corner, ray.origin), plane.normal) / speed;
         if (!(t > 0 && t < max + kOnSurface)) continue;
-        const Vec3 from = subtract(along(ray.origin, t, ray.direction), plane.corner);
+        const Vec3 from = minus(along(ray.origin, t, ray.direction), plane.corner);
         const double square = dot(plane.normal, plane.normal);
         const double u = dot(cross(from, plane.down), plane.normal) / square, v = dot(cross(plane.across, from), plane.normal) / square;
         if (u < 0 || u > 1 || v < 0 || v > 1) continue;

@@ -18,7 +18,7 @@ double shine_of(double cosine) {
 }  // namespace
 
 Lights::Lights(const CameraRays& camera)
-    : up_(camera.up), key_(unit(add(along(scale(camera.right, -0.55), 0.75, camera.up), scale(camera.toward, 0.75)))) {
+    : up_(camera.up), key_(unit(plus(along(scale(camera.right, -0.55), 0.75, camera.up), scale(camera.toward, 0.75)))) {
     basis_of(key_, key_u_, key_v_);
 }
 
@@ -31,14 +31,14 @@ Lights::Parts Lights::parts(const Vec3& normal, double towards, const Vec3& half
 
 Shade Lights::shade(const Vec3& albedo, const Vec3& normal, const Vec3& to_eye) const {
     const Parts part = parts(normal, dot(normal, to_eye), half_way(to_eye));
-    return {scale(albedo, part.ambient), add(scale(albedo, part.key), {part.highlight, part.highlight, part.highlight})};
+    return {scale(albedo, part.ambient), plus(scale(albedo, part.key), {part.highlight, part.highlight, part.highlight})};
 }
 
 Vec3 Lights::shade_sheet(const Vec3& albedo, const Vec3& normal, const Vec3& to_eye) const {
     const double facing = std::abs(dot(normal, key_));
     const double shine = shine_of(dot(normal, half_way(to_eye)));
     const double highlight = 3 * kHighlight * shine;
-    return add(scale(albedo, kSky + kEye + 0.7 * kKey * facing), {highlight, highlight, highlight});
+    return plus(scale(albedo, kSky + kEye + 0.7 * kKey * facing), {highlight, highlight, highlight});
 }
 
 Vec3 Lights::to_key(Sample2 sample) const {

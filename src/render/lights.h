@@ -28,7 +28,7 @@ public:
     /// towards: cosine of the normal and the direction to the eye. half: half_way() of that direction.
     [[nodiscard]] Parts parts(const Vec3& normal, double towards, const Vec3& half) const;
     /// The unit vector between the directions to the key light and to the eye.
-    [[nodiscard]] Vec3 half_way(const Vec3& to_eye) const { return unit(add(key_, to_eye)); }
+    [[nodiscard]] Vec3 half_way(const Vec3& to_eye) const { return unit(plus(key_, to_eye)); }
     /// A thin sheet: lit from both sides, with no shadow.
     [[nodiscard]] Vec3 shade_sheet(const Vec3& albedo, const Vec3& normal, const Vec3& to_eye) const;
     /// A direction to a point of the key light, which is a disk.

@@ -96,14 +96,14 @@ Vec3 Medium::voxel_direction(const Vec3& way) const {
 }
 
 Vec3 Medium::voxel_of(const Vec3& point) const {
-    const Vec3 physical = subtract(frame_.outside(point), volume_->info.geometry.origin);
+    const Vec3 physical = minus(frame_.outside(point), volume_->info.geometry.origin);
     return {dot(to_voxel_[0], physical), dot(to_voxel_[1], physical), dot(to_voxel_[2], physical)};
 }
 
 void Medium::shade(const Vec3& fall, const Lights& lights, const Vec3& voxel, const Vec3& to_eye, const Vec3& half, Vec3& light) const {
     Vec3 normal{};  // the gradient is the transpose of to_voxel_ times the differences along the axes
     for (int c = 0; c < 3; ++c) normal[c] = fall[0] * to_voxel_[0][c] + fall[1] * to_voxel_[1][c] + fall[2] * to_voxel_[2][c];
-    const double size = length(normal), towards = dot(normal, to_eye);
+    const double size = norm(normal), towards = dot(normal, to_eye);
     if (size == 0) {
         for (double& part : light) part *= 0.6;
         return;

@@ -57,7 +57,7 @@ Optics::Optics(const SceneVolume& volume, const Medium& medium, const Vec3& to_k
       medium_(medium),
       solid_(solid),
       removed_(removed),
-      to_light_(length(volume.scattering.to_light) > 0 ? unit(volume.scattering.to_light) : to_key) {}
+      to_light_(norm(volume.scattering.to_light) > 0 ? unit(volume.scattering.to_light) : to_key) {}
 
 void Optics::march(const Ray& ray, double begin, double end, const RayNumbers& numbers, Gathered& gathered) const {
     switch (model_) {

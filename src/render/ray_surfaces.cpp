@@ -142,7 +142,7 @@ struct RaySurfaces::Data {
             const auto& n = surface.normals[corners[c]];
             normal = along(normal, weights[c], {n[0], n[1], n[2]});
         }
-        return {t, object, length(normal) > 0 ? unit(normal) : face, face};
+        return {t, object, norm(normal) > 0 ? unit(normal) : face, face};
     }
 
     [[nodiscard]] double tau(const Crossing& crossing) const { return drawn->objects[crossing.object].surface.tau; }

@@ -16,7 +16,7 @@ struct Frame {
     Vec3 centre{};
     double radius = 1;
 
-    [[nodiscard]] Vec3 inside(const Vec3& p) const { return scale(subtract(p, centre), 1 / radius); }
+    [[nodiscard]] Vec3 inside(const Vec3& p) const { return scale(minus(p, centre), 1 / radius); }
     [[nodiscard]] Vec3 outside(const Vec3& p) const { return along(centre, radius, p); }
 };
 

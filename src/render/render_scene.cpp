@@ -40,7 +40,7 @@ void check_optics(const SceneVolume& volume, const RenderOptions& options) {
     if (!within(scattering.asymmetry, -0.99, 0.99)) refuse("the asymmetry of scattering is out of range", "-0.99 to 0.99");
     if (!within(scattering.light, 0, 1e6) || !within(scattering.sky, 0, 1e6)) refuse("a light is out of range", "0 to 1000000");
     if (scattering.max_events < 1) refuse("a path of light has no event", "1 or more");
-    if (!std::isfinite(length(scattering.to_light))) refuse("the direction to the lamp is not finite", "three finite numbers");
+    if (!std::isfinite(norm(scattering.to_light))) refuse("the direction to the lamp is not finite", "three finite numbers");
 }
 
 void check_options(const Scene& scene, const RenderOptions& options) {
@@ -71,7 +71,7 @@ public:
           rays_(rays),
           frame_(frame),
           options_(options),
-          behind_(2 * frame.radius + length(subtract(camera.target, frame.centre))) {}
+          behind_(2 * frame.radius + norm(minus(camera.target, frame.centre))) {}
 
     void paint_tile(std::int64_t tile, Film& film) const {
         const std::int64_t across = (film.width + kTile - 1) / kTile;

@@ -17,9 +17,9 @@ struct SceneBox {
         for (int a = 0; a < 3; ++a) low[a] = std::min(low[a], p[a]), high[a] = std::max(high[a], p[a]);
     }
     [[nodiscard]] bool empty() const { return low[0] > high[0]; }
-    [[nodiscard]] Vec3 centre() const { return scale(add(low, high), 0.5); }
+    [[nodiscard]] Vec3 centre() const { return scale(plus(low, high), 0.5); }
     /// Radius of a ball around the centre that contains the box; above 0.
-    [[nodiscard]] double radius() const { return std::max(length(subtract(high, low)) / 2, 1e-30); }
+    [[nodiscard]] double radius() const { return std::max(norm(minus(high, low)) / 2, 1e-30); }
 
 private:
     static constexpr double kFar = std::numeric_limits<double>::infinity();

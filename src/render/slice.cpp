@@ -130,7 +130,7 @@ SceneSlice slice_picture(const Volume& volume, const SliceOptions& options, cons
     const Extent& extent = volume.info.extent;
     const Geometry& geometry = volume.info.geometry;
     const auto length = [&](int axis) { return std::max(place(geometry, axis, extent.size[axis] - 1) - place(geometry, axis, 0), 1e-300); };
-    const double across = length(plane.across), down = length(plane.down), longer = std::max(across, down);
+    const double across = norm(plane.across), down = norm(plane.down), longer = std::max(across, down);
     const auto pixels = [&](double size) {
         return std::max<std::int64_t>(1, std::llround(static_cast<double>(options.side) * size / longer));
     };
@@ -159,8 +159,8 @@ SceneSlice slice_picture(const Volume& volume, const SliceOptions& options, cons
         return to_physical(geometry, p);
     };
     slice.corner = corner(false, false);
-    slice.across = subtract(corner(true, false), slice.corner);
-    slice.down = subtract(corner(false, true), slice.corner);
+    slice.across = minus(corner(true, false), slice.corner);
+    slice.down = minus(corner(false, true), slice.corner);
     return slice;
 }
 

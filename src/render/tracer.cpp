@@ -14,7 +14,7 @@ constexpr double kMaxLift = 0.01;
 std::vector<HalfSpace> in_frame(const std::vector<HalfSpace>& removed, const Frame& frame) {
     std::vector<HalfSpace> inside;
     for (const HalfSpace& half : removed) {
-        const double size = length(half.normal);
+        const double size = norm(half.normal);
         const Vec3 normal = unit(half.normal);
         inside.push_back({normal, (half.offset / size - dot(normal, frame.centre)) / frame.radius});
     }
@@ -30,7 +30,7 @@ double lift_of(const Scene& scene, const Frame& frame) {
         const std::size_t step = triangles.size() / 1000 + 1;
         for (std::size_t i = 0; i < triangles.size(); i += step) {
             const auto& points = object.surface.points;
-            sum += length(subtract(points[triangles[i][1]], points[triangles[i][0]])) / frame.radius;
+            sum += norm(minus(points[triangles[i][1]], points[triangles[i][0]])) / frame.radius;
             count += 1;
         }
     }

@@ -1,26 +1,20 @@
-// Vectors of three numbers.
+// What pictures do with vectors, beside what geometry/vectors.h has.
 #pragma once
 
 #include <cmath>
 
-#include "isoatlas/volume.h"
+#include "geometry/vectors.h"
+#include "isoatlas/vec3.h"
 
 namespace isoatlas {
 
-inline Vec3 add(const Vec3& a, const Vec3& b) { return {a[0] + b[0], a[1] + b[1], a[2] + b[2]}; }
-inline Vec3 subtract(const Vec3& a, const Vec3& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
 inline Vec3 scale(const Vec3& a, double s) { return {a[0] * s, a[1] * s, a[2] * s}; }
 /// a + s b
 inline Vec3 along(const Vec3& a, double s, const Vec3& b) { return {a[0] + s * b[0], a[1] + s * b[1], a[2] + s * b[2]}; }
 inline Vec3 times(const Vec3& a, const Vec3& b) { return {a[0] * b[0], a[1] * b[1], a[2] * b[2]}; }
-inline double dot(const Vec3& a, const Vec3& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-inline Vec3 cross(const Vec3& a, const Vec3& b) {
-    return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
-inline double length(const Vec3& a) { return std::sqrt(dot(a, a)); }
 /// The zero vector is unchanged.
 inline Vec3 unit(const Vec3& a) {
-    const double size = length(a);
+    const double size = norm(a);
     return size > 0 ? scale(a, 1 / size) : a;
 }
 inline Vec3 mix(const Vec3& a, const Vec3& b, double t) { return along(scale(a, 1 - t), t, b); }

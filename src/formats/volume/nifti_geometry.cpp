@@ -4,16 +4,14 @@
 #include <cmath>
 #include <optional>
 
+#include "geometry/vectors.h"
+
 namespace isoatlas {
 
 namespace {
 
 constexpr double kSameAngle = 1e-3;  ///< float headers are accurate to about 1e-6; scanners round more
 constexpr double kSmallest = 1e-30;
-
-double dot(const Vec3& a, const Vec3& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-
-Vec3 cross(const Vec3& a, const Vec3& b) { return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]}; }
 
 bool finite(const Vec3& v) { return std::isfinite(v[0]) && std::isfinite(v[1]) && std::isfinite(v[2]); }
 

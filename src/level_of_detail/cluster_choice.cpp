@@ -1,0 +1,65 @@
+// Surfaces of a hierarchy: the clusters at the border between groups that are chosen and groups that are not.
+#include <algorithm>
+
+#include "isoatlas/cluster_hierarchy.h"
+
+namespace isoatlas {
+namespace {
+
+/// The points that the triangles of these clusters use, in the order of the hierarchy.
+Surface part_of(const ClusterHierarchy& hierarchy, const std::vector<std::int64_t>& clusters) {
+    const Surface& all = hierarchy.surface;
+    Surface part;
+    part.tau = all.tau, part.reported_tau = all.reported_tau;
+    part.space = all.space, part.unit = all.unit;
+    part.closed = all.closed, part.interpolant = all.interpolant, part.polarity = all.polarity;
+    part.tunnel_height = all.tunnel_height, part.reported_tunnel_height = all.reported_tunnel_height;
+    std::vector<std::int64_t> place(all.points.size(), -1);
+    for (const std::int64_t i : clusters) {
+        const Cluster& cluster = hierarchy.clusters[static_cast<std::size_t>(i)];
+        const std::span triangles =
+            std::span(all.triangles).subspan(static_cast<std::size_t>(cluster.first_triangle), static_cast<std::size_t>(cluster.triangles));
+        part.triangles.insert(part.triangles.end(), triangles.begin(), triangles.end());
+        for (const auto& t : triangles) {
+            for (const std::int64_t point : t) place[static_cast<std::size_t>(point)] = 0;
+        }
+    }
+    for (std::size_t i = 0; i < place.size(); ++i) {
+        if (place[i] < 0) continue;
+        place[i] = static_cast<std::int64_t>(part.points.size());
+        part.points.push_back(all.points[i]);
+        if (!all.normals.empty()) part.normals.push_back(all.normals[i]);
+        if (!all.object.empty()) part.object.push_back(all.object[i]);
+        if (!all.contour.empty()) part.contour.push_back(all.contour[i]);
+    }
+    for (auto& t : part.triangles) {
+        for (std::int64_t& point : t) point = place[static_cast<std::size_t>(point)];
+    }
+    return part;
+}
+
+}  // namespace
+
+Surface surface_of_choice(const ClusterHierarchy& hierarchy, const std::function<bool(std::int64_t)>& is_chosen) {
+    std::vector<std::uint8_t> chosen(hierarchy.groups.size(), 0);
+    for (std::size_t i = 0; i < chosen.size(); ++i) {
+        const bool may_be = std::ranges::all_of(hierarchy.groups[i].made_of,
+                                                [&](std::int64_t part) { return chosen[static_cast<std::size_t>(part)] != 0; });
+        chosen[i] = may_be && is_chosen(static_cast<std::int64_t>(i)) ? 1 : 0;
+    }
+    const auto is_in = [&](std::int64_t group) { return group >= 0 && chosen[static_cast<std::size_t>(group)] != 0; };
+    std::vector<std::int64_t> clusters;
+    for (std::size_t i = 0; i < hierarchy.clusters.size(); ++i) {
+        const Cluster& cluster = hierarchy.clusters[i];
+        if ((cluster.made_by < 0 || is_in(cluster.made_by)) && !is_in(cluster.replaced_by))
+            clusters.push_back(static_cast<std::int64_t>(i));
+    }
+    return part_of(hierarchy, clusters);
+}
+
+Surface surface_within(const ClusterHierarchy& hierarchy, double distance) {
+    return surface_of_choice(hierarchy,
+                             [&](std::int64_t group) { return hierarchy.groups[static_cast<std::size_t>(group)].distance <= distance; });
+}
+
+}  // namespace isoatlas

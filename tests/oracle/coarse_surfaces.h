@@ -1,0 +1,126 @@
+// Exact surfaces that are to get fewer triangles: of random small volumes, and of shapes that decimators break; and what must hold then.
+#pragma once
+
+#include <cmath>
+#include <sstream>
+#include <string>
+
+#include "isoatlas/level_of_detail.h"
+#include "isoatlas/surface.h"
+#include "isoatlas/verify.h"
+#include "oracle/mesh_checks.h"
+
+namespace oracle {
+
+using isoatlas::Boundary;
+using isoatlas::DistanceUnit;
+using isoatlas::SimplificationOptions;
+using isoatlas::Surface;
+
+struct CoarseCase {
+    isoatlas::Volume volume;
+    Surface exact;
+    SimplificationOptions options;
+
+    CoarseCase() {
+        Grid grid = *arbitrary_grid(9, 400);
+        grid.rank = 3;
+        const isoatlas::Interpolant interpolant = *arbitrary_interpolant();
+        volume = to_volume(grid, arbitrary_type(grid));
+        volume.info.geometry = arbitrary_geometry(grid);
+        isoatlas::ExtractOptions how;
+        how.interpolant = interpolant;
+        how.surface.style = *rc::gen::element(isoatlas::SurfaceStyle::compact, isoatlas::SurfaceStyle::full);
+        how.surface.boundary = *rc::gen::element(Boundary::closed, Boundary::open);
+        exact = isoatlas::extract(volume, arbitrary_tau(elements_of(grid, interpolant)), how);
+        options.max_distance = *rc::gen::element(0.05, 0.5, 2.0, kInfinity);
+        options.unit = *rc::gen::element(DistanceUnit::voxel, DistanceUnit::physical);
+        options.triangles = *rc::gen::element(0, 0, 40);
+    }
+    /// What a failure is to say.
+    [[nodiscard]] std::string text(const isoatlas::SimplifiedReport& report) const {
+        std::ostringstream out;
+        out << (exact.closed ? "; closed" : "; open") << (options.unit == DistanceUnit::voxel ? ", voxels, " : ", lengths, ")
+            << (volume.info.geometry.coordinates[0].empty() ? "even" : "uneven") << " axes, " << exact.triangles.size()
+            << " triangles; to exact, back: " << report.to_exact.upper << ", " << report.from_exact.upper << "; in voxels "
+            << report.to_exact_in_voxels.upper << ", " << report.from_exact_in_voxels.upper;
+        return out.str();
+    }
+    [[nodiscard]] isoatlas::SimplifiedSurface simplified(const isoatlas::Context& context = {}) const {
+        return isoatlas::simplify_surface(exact, volume.info.geometry, volume.info.extent, options, context);
+    }
+};
+
+/// Volumes of several blocks, of shapes that decimators break.
+struct Shape {
+    const char* name;
+    isoatlas::Extent extent;
+    double (*sample)(double x, double y, double z);
+    double tau;
+};
+
+inline double hashed(double x, double y, double z) {
+    std::uint64_t bits = static_cast<std::uint64_t>(x) * 0x9e3779b97f4a7c15U ^ static_cast<std::uint64_t>(y) * 0xc2b2ae3d27d4eb4fU ^
+                         static_cast<std::uint64_t>(z) * 0x165667b19e3779f9U;
+    bits = (bits ^ bits >> 31) * 0xbf58476d1ce4e5b9U;
+    return static_cast<double>((bits ^ bits >> 29) >> 11) * 0x1p-53;
+}
+
+inline const Shape kShapes[] = {
+    {"the tube of the dissertation's condition",
+     {3, {5, 5, 9}},
+     [](double x, double y, double z) { return 10 - 5 * (std::abs(x - 2) + std::abs(y - 2)) - 0.01 * z; },
+     7},
+    {"a tube of one voxel through many blocks",
+     {3, {140, 9, 9}},
+     [](double x, double y, double z) {
+         const double u = y - 4 - 2 * std::sin(x / 9), v = z - 4 - 2 * std::cos(x / 9);
+         return 1.2 - std::sqrt(u * u + v * v);
+     },
+     0.5},
+    {"sheets one voxel apart",
+     {3, {40, 34, 9}},
+     [](double x, double y, double z) { return std::sin(3.14159 * (z + 0.3 * std::sin(x / 7) + 0.3 * std::cos(y / 5))); },
+     0.1},
+    {"nested shells a voxel thin",
+     {3, {34, 34, 34}},
+     [](double x, double y, double z) {
+         const double r = std::sqrt((x - 17) * (x - 17) + (y - 17.3) * (y - 17.3) + (z - 16.8) * (z - 16.8));
+         return std::sin(3.14159 * r / 1.3);
+     },
+     0.2},
+    {"noise", {3, {40, 34, 8}}, [](double x, double y, double z) { return hashed(x, y, z); }, 0.6},
+    {"a smooth surface",
+     {3, {40, 40, 30}},
+     [](double x, double y, double z) { return std::sin(x / 6) * std::cos(y / 7) + std::sin(z / 5) * std::cos(x / 9); },
+     0.3},
+};
+
+inline isoatlas::Volume volume_of(const Shape& shape) {
+    std::vector<float> samples;
+    for (std::int64_t i = 0; i < shape.extent.voxels(); ++i) {
+        const auto p = shape.extent.voxel(i);
+        samples.push_back(
+            static_cast<float>(shape.sample(static_cast<double>(p[0]), static_cast<double>(p[1]), static_cast<double>(p[2]))));
+    }
+    isoatlas::Volume volume = isoatlas::make_volume<float>(shape.extent, samples);
+    volume.info.geometry.spacing = {0.7, 1.1, 2.5};
+    volume.info.geometry.origin = {-100, 37, 5};
+    const double c = std::cos(0.4), s = std::sin(0.4);
+    volume.info.geometry.direction = {{{c, -s, 0}, {s, c, 0}, {0, 0, 1}}};
+    return volume;
+}
+
+/// All checks of verify_simplified() on a coarser version of an exact surface; a distance of 0 is one of rounding.
+inline isoatlas::SimplifiedReport coarse_report(const Surface& coarse, const Surface& exact, const isoatlas::VolumeInfo& info,
+                                                DistanceUnit unit, double distance) {
+    isoatlas::Mesh mesh;
+    mesh.points = coarse.points, mesh.triangles = coarse.triangles;
+    mesh.space = exact.space, mesh.unit = exact.unit;
+    isoatlas::SimplifiedOptions how;
+    how.max_distance = distance == 0 ? 1e-9 : distance * (1 + 1e-5);
+    how.in_voxels = unit == DistanceUnit::voxel;
+    return verify_simplified(mesh, exact, info, how);
+}
+
+}  // namespace oracle

@@ -1,0 +1,215 @@
+// Every choice of a hierarchy of clusters is a surface with the contours of the exact one, embedded, within the distance that it says.
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+#include <iostream>
+#include <map>
+#include <random>
+#include <set>
+
+#include "isoatlas/cluster_hierarchy.h"
+#include "oracle/coarse_surfaces.h"
+
+namespace oracle {
+namespace {
+
+using isoatlas::Cluster;
+using isoatlas::ClusterGroup;
+using isoatlas::ClusterHierarchy;
+using isoatlas::ClusterOptions;
+
+ClusterHierarchy hierarchy_of(const CoarseCase& c, const isoatlas::Context& context = {}) {
+    ClusterOptions options;
+    options.unit = c.options.unit;
+    options.first_distance = *rc::gen::element(0.01, 0.1, 1.0);
+    options.triangles = *rc::gen::element(4, 16);
+    options.clusters = *rc::gen::element(2, 5);
+    return make_clusters(c.exact, c.volume.info.geometry, c.volume.info.extent, options, context);
+}
+
+struct Choice {
+    Surface surface;
+    double distance = 0;
+};
+
+/// Each group within the limit that may be is chosen with this probability.
+Choice random_choice(const ClusterHierarchy& hierarchy, double probability, std::mt19937_64& random, double limit = kInfinity) {
+    Choice choice;
+    choice.surface = surface_of_choice(hierarchy, [&](std::int64_t group) {
+        const double distance = hierarchy.groups[static_cast<std::size_t>(group)].distance;
+        const bool is_chosen = distance <= limit && static_cast<double>(random() >> 11) * 0x1p-53 < probability;
+        if (is_chosen) choice.distance = std::max(choice.distance, distance);
+        return is_chosen;
+    });
+    return choice;
+}
+
+/// The Euler number of each contour, by the ids of the points.
+std::map<std::int64_t, std::int64_t> euler_numbers(const Surface& surface) {
+    std::map<std::int64_t, std::int64_t> numbers;
+    std::set<std::array<std::int64_t, 2>> edges;
+    for (const std::int64_t contour : surface.contour) ++numbers[contour];
+    for (const auto& t : surface.triangles) {
+        ++numbers[surface.contour[static_cast<std::size_t>(t[0])]];
+        for (std::size_t k = 0; k < 3; ++k) edges.insert({std::min(t[k], t[(k + 1) % 3]), std::max(t[k], t[(k + 1) % 3])});
+    }
+    for (const auto& [a, b] : edges) --numbers[surface.contour[static_cast<std::size_t>(a)]];
+    return numbers;
+}
+
+std::mt19937_64 arbitrary_random() { return std::mt19937_64(*rc::gen::arbitrary<std::uint64_t>()); }
+
+void every_choice_has_the_same_contours_within_its_distance() {
+    const CoarseCase c;
+    const ClusterHierarchy hierarchy = hierarchy_of(c, arbitrary_context());
+    std::mt19937_64 random = arbitrary_random();
+    for (const double probability : {0.6, 0.9, 1.0}) {
+        const Choice choice = random_choice(hierarchy, probability, random);
+        if (choice.surface.points.empty()) return;
+        const isoatlas::SimplifiedReport report = coarse_report(choice.surface, c.exact, c.volume.info, c.options.unit, choice.distance);
+        for (const isoatlas::CheckResult& check : report.checks) {
+            if (!check.holds) RC_FAIL(check.name + ": " + check.detail + c.text(report));
+        }
+    }
+}
+
+void clusters_are_parts_of_the_surface() {
+    const CoarseCase c;
+    const ClusterHierarchy hierarchy = hierarchy_of(c);
+    std::int64_t next = 0;
+    for (const Cluster& cluster : hierarchy.clusters) {
+        RC_ASSERT(cluster.first_triangle == next);
+        RC_ASSERT(cluster.triangles > 0);
+        RC_ASSERT(cluster.triangles <= 16);
+        RC_ASSERT(cluster.replaced_by < 0 || cluster.replaced_by > cluster.made_by);
+        next += cluster.triangles;
+    }
+    RC_ASSERT(next == static_cast<std::int64_t>(hierarchy.surface.triangles.size()));
+    for (std::size_t i = 0; i < hierarchy.groups.size(); ++i) {
+        const ClusterGroup& group = hierarchy.groups[i];
+        for (const std::int64_t made : group.made_of) {
+            const ClusterGroup& part = hierarchy.groups[static_cast<std::size_t>(made)];
+            RC_ASSERT(made < static_cast<std::int64_t>(i));
+            RC_ASSERT(part.distance <= group.distance);
+            const isoatlas::Vec3 &p = part.centre, &q = group.centre;
+            RC_ASSERT(std::hypot(p[0] - q[0], p[1] - q[1], p[2] - q[2]) + part.radius <= group.radius * (1 + 1e-9));
+        }
+    }
+    for (const Cluster& cluster : hierarchy.clusters) {  // those of a group that is made and replaced lie in the ball of what replaces them
+        if (cluster.replaced_by < 0) continue;
+        const ClusterGroup& group = hierarchy.groups[static_cast<std::size_t>(cluster.replaced_by)];
+        for (std::int64_t t = cluster.first_triangle; t < cluster.first_triangle + cluster.triangles; ++t) {
+            for (const std::int64_t point : hierarchy.surface.triangles[static_cast<std::size_t>(t)]) {
+                const isoatlas::Vec3 &p = hierarchy.surface.points[static_cast<std::size_t>(point)], &q = group.centre;
+                RC_ASSERT(std::hypot(p[0] - q[0], p[1] - q[1], p[2] - q[2]) <= group.radius * (1 + 1e-9));
+            }
+        }
+    }
+}
+
+void the_coarsest_surface_has_the_same_contours() {
+    const CoarseCase c;
+    RC_ASSERT(euler_numbers(surface_within(hierarchy_of(c), kInfinity)) == euler_numbers(c.exact));
+}
+
+/// Triangles as corners with coordinates, each from its least corner: of a surface whose points are numbered anyhow.
+auto shape_of(const Surface& surface) {
+    std::vector<std::array<isoatlas::Vec3, 3>> shape;
+    for (const auto& [a, b, c] : surface.triangles) {
+        std::array<isoatlas::Vec3, 3> t{surface.points[static_cast<std::size_t>(a)], surface.points[static_cast<std::size_t>(b)],
+                                        surface.points[static_cast<std::size_t>(c)]};
+        std::ranges::rotate(t, std::ranges::min_element(t));
+        shape.push_back(t);
+    }
+    std::ranges::sort(shape);
+    return shape;
+}
+
+void the_choice_of_nothing_is_the_exact_surface() {
+    const CoarseCase c;
+    RC_ASSERT(shape_of(surface_within(hierarchy_of(c), 0)) == shape_of(c.exact));
+}
+
+void hierarchies_have_the_same_bytes_for_any_threads() {
+    const CoarseCase c;
+    ClusterOptions options;
+    options.triangles = 8, options.clusters = 2;
+    const auto made = [&](int threads) {
+        return make_clusters(c.exact, c.volume.info.geometry, c.volume.info.extent, options, {.threads = threads});
+    };
+    const ClusterHierarchy one = made(1), two = made(2);
+    RC_ASSERT(one.surface.points == two.surface.points);
+    RC_ASSERT(one.surface.triangles == two.surface.triangles);
+    RC_ASSERT(one.surface.normals == two.surface.normals);
+    RC_ASSERT(one.clusters.size() == two.clusters.size());
+    for (std::size_t i = 0; i < one.groups.size(); ++i) RC_ASSERT(one.groups[i].made_of == two.groups[i].made_of);
+}
+
+void check_choices(const char* name, const isoatlas::Volume& volume, double tau, int choices, std::uint64_t seed) {
+    const Surface exact = isoatlas::extract(volume, tau);
+    const ClusterHierarchy hierarchy = make_clusters(exact, volume.info.geometry, volume.info.extent, {.triangles = 64, .clusters = 8});
+    std::mt19937_64 random(seed);
+    const Surface coarsest = surface_within(hierarchy, kInfinity);
+    EXPECT_TRUE(euler_numbers(coarsest) == euler_numbers(exact)) << name;
+    constexpr double kLimit = 1;  // farther apart, which contours of thin shells belong together is found by their ids alone
+    std::size_t least = exact.triangles.size();
+    for (int i = 0; i < choices; ++i) {
+        constexpr std::array kProbabilities{1.0, 0.5, 0.8, 0.95};
+        const Choice choice = random_choice(hierarchy, kProbabilities[static_cast<std::size_t>(i) % kProbabilities.size()], random, kLimit);
+        least = std::min(least, choice.surface.triangles.size());
+        const isoatlas::SimplifiedReport report = coarse_report(choice.surface, exact, volume.info, DistanceUnit::voxel, choice.distance);
+        for (const isoatlas::CheckResult& check : report.checks) {
+            EXPECT_TRUE(check.holds) << name << " at " << tau << ", choice " << i << " of seed " << seed << ": " << check.name << ": "
+                                     << check.detail;
+        }
+    }
+    std::cout << name << " at " << tau << ": " << exact.triangles.size() << " -> " << least << " and " << coarsest.triangles.size()
+              << " triangles, " << hierarchy.groups.size() << " groups, " << choices << " choices\n";
+}
+
+TEST(ClusterHierarchies, OfDifficultShapesHold) {
+    for (const Shape& shape : kShapes) check_choices(shape.name, volume_of(shape), shape.tau, 3, 1);
+}
+
+/// Eleven surfaces of real volumes; ISOATLAS_ALL_DATA=1: 1000 choices of each instead of a few of the small ones.
+TEST(ClusterHierarchies, OfSharedVolumesHold) {
+    struct Named {
+        const char* volume;
+        double tau;
+        bool is_small;
+    };
+    constexpr std::array<Named, 11> kSurfaces{{{"fuel", 50, true},
+                                               {"neghip", 60, true},
+                                               {"neghip", 120, true},
+                                               {"headsq", 500, false},
+                                               {"headsq", 1200, false},
+                                               {"tooth", 500, false},
+                                               {"tooth", 1000, false},
+                                               {"engine", 80, false},
+                                               {"engine", 150, false},
+                                               {"bonsai", 40, false},
+                                               {"bonsai", 120, false}}};
+    const std::filesystem::path data = std::filesystem::path(ISOATLAS_SOURCE_DIR).parent_path() / "shared" / "data";
+    if (!std::filesystem::is_directory(data)) GTEST_SKIP() << "no shared data beside the checkout";
+    const bool all = std::getenv("ISOATLAS_ALL_DATA") != nullptr;
+    for (const Named& named : kSurfaces) {
+        if (!all && !named.is_small) continue;
+        const std::string name = named.volume;
+        const auto reader = isoatlas::open_volume((data / name / (name + ".nrrd")).string(), {});
+        check_choices(named.volume, load_volume(*reader), named.tau, all ? 1000 : 4, 7);
+    }
+}
+
+RC_GTEST_PROP(ClusterHierarchies, EveryChoiceHasTheSameContoursWithinItsDistance, ()) {
+    every_choice_has_the_same_contours_within_its_distance();
+}
+RC_GTEST_PROP(ClusterHierarchies, ClustersArePartsOfTheSurface, ()) { clusters_are_parts_of_the_surface(); }
+RC_GTEST_PROP(ClusterHierarchies, TheCoarsestSurfaceHasTheSameContours, ()) { the_coarsest_surface_has_the_same_contours(); }
+RC_GTEST_PROP(ClusterHierarchies, TheChoiceOfNothingIsTheExactSurface, ()) { the_choice_of_nothing_is_the_exact_surface(); }
+RC_GTEST_PROP(ClusterHierarchies, HaveTheSameBytesForAnyThreads, ()) { hierarchies_have_the_same_bytes_for_any_threads(); }
+
+}  // namespace
+}  // namespace oracle
