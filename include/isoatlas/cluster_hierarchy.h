@@ -36,8 +36,8 @@ struct ClusterHierarchy {
 };
 
 struct ClusterOptions {
-    DistanceUnit unit = DistanceUnit::voxel;
-    double first_distance = 1.0 / 16;  ///< what the groups of the first level may deviate, in this unit; twice as much with each level
+    DistanceUnit unit = DistanceUnit::voxel;  ///< of ClusterHierarchy
+    double first_distance = 1.0 / 16;  ///< what groups of the first level may deviate, in smallest sample steps; twice with each level
     std::int64_t triangles = 128;      ///< of a cluster, at most; 1 or more
     std::int64_t clusters = 32;        ///< of a group, about; 1 or more
 };
@@ -52,6 +52,9 @@ struct ClusterOptions {
 
 /// The surface of a choice: is_chosen is asked once for each group whose made_of are all chosen. Cost: O(hierarchy).
 [[nodiscard]] Surface surface_of_choice(const ClusterHierarchy& hierarchy, const std::function<bool(std::int64_t)>& is_chosen);
+/// Coarser and coarser ones, each with at most a third of the triangles of the one before; fewer than `most` where the hierarchy has no
+/// coarser one. Their distances are in ClusterHierarchy::unit.
+[[nodiscard]] std::vector<SimplifiedSurface> coarser_surfaces(const ClusterHierarchy& hierarchy, std::int64_t most);
 /// The coarsest one in which every group is at most so far from the exact surface, in ClusterHierarchy::unit.
 [[nodiscard]] Surface surface_within(const ClusterHierarchy& hierarchy, double distance);
 

@@ -27,6 +27,7 @@
 #include "isoatlas/cavities.h"
 #include "isoatlas/cell_search.h"
 #include "isoatlas/client.h"
+#include "isoatlas/cluster_hierarchy.h"
 #include "isoatlas/collection.h"
 #include "isoatlas/context.h"
 #include "isoatlas/criticality.h"

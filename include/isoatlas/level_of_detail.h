@@ -19,11 +19,6 @@ struct SimplificationOptions {
     std::int64_t triangles = 0;  ///< not fewer than this
 };
 
-struct SimplifiedSurface {
-    Surface surface;
-    double distance;  ///< no point of either surface is farther from the other, in SimplificationOptions::unit
-};
-
 /// Fewer triangles by edge collapses, cheapest first (quadric error: Garland and Heckbert, Surface simplification using quadric error
 /// metrics, 1997), each only where
 /// (a) the link condition holds (Dey, Edelsbrunner, Guha, Nekhayev: Topology preserving edge contraction, 1999): every contour keeps its

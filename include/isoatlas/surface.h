@@ -104,11 +104,23 @@ std::vector<std::string> write_surface(const std::string& path, const Surface& s
 /// The same into a sink (isoatlas/sink.h).
 std::vector<std::string> write_surface(Sink& sink, const Surface& surface, const SurfaceFileOptions& options = {});
 
+/// A surface with fewer triangles than the exact one (level_of_detail.h).
+struct SimplifiedSurface {
+    Surface surface;
+    double distance;  ///< no point of either surface is farther from the other, in the unit that was asked for
+};
+
+/// With coarser and coarser versions, which a viewer draws where the surface is small: .glb alone (MSFT_lod). They have the objects of the
+/// surface; their distances are in the unit of its points. Throws Error: usage (another format), and as above.
+std::vector<std::string> write_surface(const std::string& path, const Surface& surface, std::span<const SimplifiedSurface> coarser,
+                                       const SurfaceFileOptions& options = {});
+
 /// A surface with what it is called and drawn with; each may have an isovalue of its own.
 struct NamedSurface {
     Surface surface;
-    std::string name;                    ///< UTF-8
-    std::array<std::uint8_t, 3> colour;  ///< red, green, blue: sRGB
+    std::string name;                          ///< UTF-8
+    std::array<std::uint8_t, 3> colour;        ///< red, green, blue: sRGB
+    std::vector<SimplifiedSurface> coarser{};  ///< as above
 };
 /// Several surfaces in one file: .glb (a node with a name and a material each), .obj (groups), .ply .stl .vtp .vtkhdf (one mesh; .ply
 /// has the number of the surface, from 1, as `object` of each point; .vtp and .vtkhdf as the array `Object`, and the names in field data).

@@ -62,4 +62,22 @@ Surface surface_within(const ClusterHierarchy& hierarchy, double distance) {
                              [&](std::int64_t group) { return hierarchy.groups[static_cast<std::size_t>(group)].distance <= distance; });
 }
 
+std::vector<SimplifiedSurface> coarser_surfaces(const ClusterHierarchy& hierarchy, std::int64_t most) {
+    std::vector<double> distances;
+    for (const ClusterGroup& group : hierarchy.groups) distances.push_back(group.distance);
+    std::ranges::sort(distances);
+    const auto doubled = std::ranges::unique(distances);
+    distances.erase(doubled.begin(), doubled.end());
+    std::vector<SimplifiedSurface> coarser;
+    std::size_t triangles = surface_within(hierarchy, 0).triangles.size();
+    for (const double distance : distances) {
+        if (static_cast<std::int64_t>(coarser.size()) == most) break;
+        SimplifiedSurface next{surface_within(hierarchy, distance), distance};
+        if (3 * next.surface.triangles.size() > triangles) continue;
+        triangles = next.surface.triangles.size();
+        coarser.push_back(std::move(next));
+    }
+    return coarser;
+}
+
 }  // namespace isoatlas

@@ -38,7 +38,7 @@ public:
         for (const std::int64_t cluster : current_) all_.add(versions_.box(cluster));
         const Vec3 size = minus(all_.high, all_.low);
         size_ = std::sqrt(dot(size, size));
-        level_ = {{all_.low, frame.step(), 0}, options.first_distance};
+        level_ = {{all_.low, frame.step(), 0}, options.first_distance * frame.step()};
     }
 
     void run() {

@@ -130,7 +130,7 @@ SceneSlice slice_picture(const Volume& volume, const SliceOptions& options, cons
     const Extent& extent = volume.info.extent;
     const Geometry& geometry = volume.info.geometry;
     const auto length = [&](int axis) { return std::max(place(geometry, axis, extent.size[axis] - 1) - place(geometry, axis, 0), 1e-300); };
-    const double across = norm(plane.across), down = norm(plane.down), longer = std::max(across, down);
+    const double across = length(plane.across), down = length(plane.down), longer = std::max(across, down);
     const auto pixels = [&](double size) {
         return std::max<std::int64_t>(1, std::llround(static_cast<double>(options.side) * size / longer));
     };

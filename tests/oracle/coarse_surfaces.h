@@ -1,7 +1,10 @@
 // Exact surfaces that are to get fewer triangles: of random small volumes, and of shapes that decimators break; and what must hold then.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
+#include <map>
+#include <set>
 #include <sstream>
 #include <string>
 
@@ -121,6 +124,30 @@ inline isoatlas::SimplifiedReport coarse_report(const Surface& coarse, const Sur
     how.max_distance = distance == 0 ? 1e-9 : distance * (1 + 1e-5);
     how.in_voxels = unit == DistanceUnit::voxel;
     return verify_simplified(mesh, exact, info, how);
+}
+
+/// The Euler number of each contour, by the ids of the points.
+inline std::map<std::int64_t, std::int64_t> euler_numbers(const Surface& surface) {
+    std::map<std::int64_t, std::int64_t> numbers;
+    std::set<std::array<std::int64_t, 2>> edges;
+    for (const std::int64_t contour : surface.contour) ++numbers[contour];
+    for (const auto& t : surface.triangles) {
+        ++numbers[surface.contour[static_cast<std::size_t>(t[0])]];
+        for (std::size_t k = 0; k < 3; ++k) edges.insert({std::min(t[k], t[(k + 1) % 3]), std::max(t[k], t[(k + 1) % 3])});
+    }
+    for (const auto& [a, b] : edges) --numbers[surface.contour[static_cast<std::size_t>(a)]];
+    return numbers;
+}
+
+/// The first thing that does not hold; empty: all does. Where contours have moved farther than a voxel, thin shells may be nearer to others
+/// than to themselves: their ids say then which belong together.
+inline std::string coarse_failure(const isoatlas::SimplifiedReport& report, const Surface& coarse, const Surface& exact) {
+    if (euler_numbers(coarse) != euler_numbers(exact)) return "the contours have other Euler numbers";
+    const bool is_far = std::max(report.to_exact_in_voxels.upper, report.from_exact_in_voxels.upper) > 1;
+    for (const isoatlas::CheckResult& check : report.checks) {
+        if (!check.holds && !(is_far && check.name == "contours_are_one_to_one")) return check.name + ": " + check.detail;
+    }
+    return {};
 }
 
 }  // namespace oracle

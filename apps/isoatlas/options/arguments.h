@@ -83,6 +83,7 @@ struct Arguments {
     bool split = false, for_print = false;       ///< extract
     std::optional<double> min_wall;              ///< extract --for-print: millimetres
     SimplificationArguments simplification{};    ///< extract
+    std::int64_t coarser = 0;                    ///< extract: versions with fewer triangles
     std::vector<ObjectReference> removed_names;  ///< name
     bool best = false, all = false, zones = false, list = false, cavities = false, both = false;
     std::int64_t top = 0;  ///< 0: not given

@@ -105,6 +105,9 @@ void extract_options(CLI::App& app, Arguments& arguments, Typed& typed) {
     add_number(app, "--triangles", arguments.simplification.triangles, "Simplify to this number of triangles, not fewer")
         ->check(in_range(4, 1'000'000'000))
         ->type_name("N");
+    add_number(app, "--coarser", arguments.coarser, "With .glb: so many coarser versions, for viewers to draw where it is small")
+        ->check(in_range(1, 16))
+        ->type_name("N");
     add_shell(app, typed);
     add_style(app, typed);
     add_boundary(app, typed);

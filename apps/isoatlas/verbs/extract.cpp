@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "data/chosen_surfaces.h"
+#include "data/coarser.h"
 #include "data/print_surface.h"
 #include "data/sides.h"
 #include "data/simplify.h"
@@ -40,6 +41,7 @@ void check_extract_arguments(const Arguments& arguments) {
     if (arguments.split && !chooses && !has_contours)
         throw Error(ErrorKind::usage, {.what = "--split writes a file for each chosen object", .next = "add --top N or --object REF"});
     check_output(arguments, {".ply", ".stl", ".obj", ".vtp", ".glb", ".vtkhdf"});
+    check_coarser(arguments);
 }
 
 /// The objects and contours of the command line; empty: everything at --tau.
@@ -128,6 +130,7 @@ struct Written {
     std::vector<Part> parts{};
     std::optional<Printing> print{};
     std::optional<Simplification> simplification{};
+    CoarserVersions coarser{};
 };
 
 Json part_json(const Written::Part& part) {
@@ -162,6 +165,7 @@ Json to_json(const Arguments& arguments, Source& source, const Written& written)
     json["warnings"] = written.warnings;
     json["notes"] = written.notes;
     json["simplification"] = written.simplification ? simplification_json(*written.simplification) : Json(nullptr);
+    json["coarser"] = coarser_json(written.coarser);
     json["print"] = written.print ? printing_json(*written.print) : Json(nullptr);
     Json& parts = json["surfaces"] = Json::array();
     for (const Written::Part& part : written.parts) parts.push_back(part_json(part));
@@ -195,6 +199,7 @@ void print_text(const Arguments& arguments, Terminal& terminal, Source& source, 
                            << connectivity << '\n';
     }
     if (written.simplification) terminal.out() << simplification_text(*written.simplification) << '\n';
+    if (written.coarser.most > 0) terminal.out() << coarser_text(written.coarser) << '\n';
     if (written.print) terminal.out() << printing_text(*written.print) << '\n';
     const std::string file = arguments.split ? written.parts[0].output : arguments.output;
     if (written.counts.triangles > 0 && written.counts.closed && !file.ends_with(".vtkhdf"))
@@ -218,9 +223,12 @@ Written write_one(const Arguments& arguments, Source& source, const std::vector<
     written.print = print, written.notes = std::move(notes);
     written.simplification = simplification;
     written.counts = count(surface);
+    written.coarser.most = arguments.coarser;
+    std::vector<SimplifiedSurface> coarser;
+    if (arguments.coarser > 0) coarser = coarser_versions(surface, source.info(), written.coarser, source.context());
     if (chosen.size() == 1) written.parts.push_back({chosen[0], written.counts, surface.reported_tau, arguments.output});
     const WritingGuard guard;
-    written.warnings = write_surface(arguments.output, surface, file_options(arguments));
+    written.warnings = write_surface(arguments.output, surface, coarser, file_options(arguments));
     return written;
 }
 
@@ -233,6 +241,7 @@ Written write_several(const Arguments& arguments, Sides& sides, const std::vecto
     written.tau = first.tau, written.reported_tau = first.reported_tau, written.space = first.space;
     written.unit = arguments.for_print ? "mm" : first.unit;
     written.counts.closed = true;
+    written.coarser.most = arguments.coarser;
     std::vector<NamedSurface> together;
     const auto keep = [&](const std::vector<std::string>& warnings) {
         for (const std::string& warning : warnings) {
@@ -245,6 +254,10 @@ Written write_several(const Arguments& arguments, Sides& sides, const std::vecto
         if (written.simplification) {
             Source& source = sides.source(one.object);
             simplify(one.named.surface, source.info(), *written.simplification, source.context());
+        }
+        if (arguments.coarser > 0) {
+            Source& source = sides.source(one.object);
+            one.named.coarser = coarser_versions(one.named.surface, source.info(), written.coarser, source.context());
         }
         if (written.print) print_surface(one.named.surface, *written.print, written.notes, sides.main().context());
         const std::string output = arguments.split ? split_name(arguments.output, one.object) : arguments.output;

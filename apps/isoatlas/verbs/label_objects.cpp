@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include "data/coarser.h"
 #include "data/label_directory.h"
 #include "data/print_surface.h"
 #include "data/simplify.h"
@@ -77,6 +78,7 @@ int list_label_objects(const Arguments& arguments, Terminal& terminal) {
 }
 
 int extract_label_objects(const Arguments& arguments, Terminal& terminal) {
+    check_coarser(arguments);
     Source source(arguments, terminal);
     LabelDirectory directory(arguments, source);
     SurfaceOptions options;
@@ -86,6 +88,7 @@ int extract_label_objects(const Arguments& arguments, Terminal& terminal) {
     if (arguments.for_print) printing = printing_of(arguments);
     std::optional<Simplification> simplification;
     if (arguments.simplification.is_asked_for()) simplification = simplification_of(arguments);
+    CoarserVersions coarser{.most = arguments.coarser};
     std::vector<std::string> notes;
     const std::vector<std::int64_t> labels = directory.find(arguments.objects);
     std::vector<NamedSurface> surfaces;
@@ -94,8 +97,10 @@ int extract_label_objects(const Arguments& arguments, Terminal& terminal) {
         Surface part = extract_label(source.volume(), label, {.interpolant = source.interpolant(), .surface = options}, source.context());
         if (simplification) simplify(part, source.info(), *simplification, source.context());
         if (printing) print_surface(part, *printing, notes, source.context());
+        std::vector<SimplifiedSurface> versions;
+        if (coarser.most > 0) versions = coarser_versions(part, source.info(), coarser, source.context());
         points += part.points.size(), triangles += part.triangles.size(), segments += part.segments.size();
-        surfaces.push_back({std::move(part), directory.title_of(label), directory.colour_of(label)});
+        surfaces.push_back({std::move(part), directory.title_of(label), directory.colour_of(label), std::move(versions)});
     }
     const Surface& surface = surfaces.front().surface;
     const SurfaceFileOptions file_options{.space = arguments.space.value_or(PointSpace::lps)};
@@ -120,6 +125,7 @@ int extract_label_objects(const Arguments& arguments, Terminal& terminal) {
         json["warnings"] = warnings;
         json["notes"] = notes;
         json["simplification"] = simplification ? simplification_json(*simplification) : Json(nullptr);
+        json["coarser"] = coarser_json(coarser);
         json["print"] = printing ? printing_json(*printing) : Json(nullptr);
         add_reads(json, source.reads());
         print(terminal, json);
@@ -129,6 +135,7 @@ int extract_label_objects(const Arguments& arguments, Terminal& terminal) {
                    << counted(std::ssize(labels), "label") << (surface.unit.empty() ? "" : ", in " + surface.unit) << ", "
                    << interpolant_text(source.info(), surface.interpolant, 0) << '\n';
     if (simplification) terminal.out() << simplification_text(*simplification) << '\n';
+    if (coarser.most > 0) terminal.out() << coarser_text(coarser) << '\n';
     if (printing) terminal.out() << printing_text(*printing) << '\n';
     if (labels.size() == 1 && !surface.triangles.empty() && surface.closed)
         terminal.next("isoatlas verify " + shell_word(arguments.output));

@@ -23,6 +23,12 @@ void add_part(MeshParts& parts, const Surface& surface, std::string name, const 
     parts.parts.push_back(std::move(part));
 }
 
+/// To the last part.
+void add_coarser(MeshParts& parts, std::span<const SimplifiedSurface> coarser, const std::string& file) {
+    for (const SimplifiedSurface& version : coarser) check_surface(version.surface, file);
+    parts.parts.back().coarser = coarser;
+}
+
 [[noreturn]] void refuse(const std::string& file, const std::string& what, const std::string& next) {
     throw Error(ErrorKind::usage, {.file = file, .what = what, .next = next});
 }
@@ -63,12 +69,14 @@ TurnedSurface::TurnedSurface(const Surface& surface, const std::string& space) :
     }
 }
 
-MeshParts mesh_parts(const Surface& surface, const SurfaceFileOptions& options, const std::string& file) {
+MeshParts mesh_parts(const Surface& surface, const SurfaceFileOptions& options, const std::string& file,
+                     std::span<const SimplifiedSurface> coarser) {
     check_surface(surface, file);
     MeshParts parts;
     parts.space = turned_space(surface.space, options.space);
     parts.unit = surface.unit;
     add_part(parts, surface, {}, {});
+    add_coarser(parts, coarser, file);
     return parts;
 }
 
@@ -84,6 +92,7 @@ MeshParts mesh_parts(std::span<const NamedSurface> surfaces, const SurfaceFileOp
         if (named.surface.space != first.space || named.surface.unit != first.unit)
             refuse(file, "the surfaces have different spaces or units of length", "write those of each volume into a file of their own");
         add_part(parts, named.surface, one_line(named.name), named.colour);
+        add_coarser(parts, named.coarser, file);
     }
     if (parts.segments > 0 && parts.triangles > 0) refuse(file, "curves and triangles do not share a file", "write them into two files");
     return parts;

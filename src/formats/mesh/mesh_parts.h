@@ -1,6 +1,7 @@
 // What the mesh formats write: one surface, or several with names and colours, seen in the space of the file.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <span>
@@ -49,7 +50,8 @@ struct MeshPart {
     TurnedSurface turned;
     std::string name;
     SrgbBytes colour{};
-    std::int64_t first_point = 0;  ///< in a file with one list of points
+    std::int64_t first_point = 0;                  ///< in a file with one list of points
+    std::span<const SimplifiedSurface> coarser{};  ///< for .glb
     [[nodiscard]] const Surface& surface() const { return turned.surface(); }
 };
 
@@ -62,11 +64,15 @@ struct MeshParts {
     std::int64_t points = 0, triangles = 0, segments = 0;
     bool has_normals = false, has_object = false, has_contour = false;  ///< in all parts
 
+    [[nodiscard]] bool has_coarser() const {
+        return std::ranges::any_of(parts, [](const MeshPart& part) { return !part.coarser.empty(); });
+    }
     [[nodiscard]] bool is_curves() const { return segments > 0; }
     [[nodiscard]] bool says_space() const { return space == "LPS" || space == "RAS"; }  ///< in the words of 3D Slicer
 };
 /// Throws Error{usage} for arrays of different length, indices out of range, curves beside triangles, different spaces or units.
-[[nodiscard]] MeshParts mesh_parts(const Surface& surface, const SurfaceFileOptions& options, const std::string& file);
+[[nodiscard]] MeshParts mesh_parts(const Surface& surface, const SurfaceFileOptions& options, const std::string& file,
+                                   std::span<const SimplifiedSurface> coarser = {});
 [[nodiscard]] MeshParts mesh_parts(std::span<const NamedSurface> surfaces, const SurfaceFileOptions& options, const std::string& file);
 
 /// Of all parts; of low values when all of them are.

@@ -37,6 +37,11 @@ const MeshFormat& checked_format(const std::string& path, const MeshParts& parts
                      .what = std::string(format.extension) + " stores triangles only, and the contours of a 2D image are curves",
                      .next = "write .ply, .obj, .vtp or .vtkhdf"});
     }
+    if (parts.has_coarser() && format.write != write_glb) {
+        throw Error(
+            ErrorKind::usage,
+            {.file = path, .what = std::string(format.extension) + " holds no coarser versions of a surface", .next = "write .glb"});
+    }
     return format;
 }
 
@@ -64,6 +69,12 @@ std::vector<std::string> write_surface(Sink& sink, const Surface& surface, const
 std::vector<std::string> write_surface(const std::string& path, const Surface& surface, const SurfaceFileOptions& options) {
     (void)format_of(path);
     return write(path, mesh_parts(surface, options, path));
+}
+
+std::vector<std::string> write_surface(const std::string& path, const Surface& surface, std::span<const SimplifiedSurface> coarser,
+                                       const SurfaceFileOptions& options) {
+    (void)format_of(path);
+    return write(path, mesh_parts(surface, options, path, coarser));
 }
 
 std::vector<std::string> write_surfaces(Sink& sink, std::span<const NamedSurface> surfaces, const SurfaceFileOptions& options) {

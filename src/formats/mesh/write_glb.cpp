@@ -2,6 +2,7 @@
 // own mesh and material for each object. Positions are float32 relative to the node's translation, so objects far from the origin keep
 // their shape. Source: glTF 2.0 specification, Khronos Group.
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "formats/common/byte_writer.h"
@@ -30,6 +31,9 @@ struct Piece {
     std::size_t first_point = 0, point_count = 0;  ///< range of Scene::used
     Point translation{};                           ///< middle of its box
     std::array<float, 3> low{}, high{};            ///< of the stored positions
+    double distance = 0;                           ///< from the exact surface
+    std::vector<std::size_t> coarser{};            ///< the pieces that are drawn instead where it is small
+    bool is_coarser = false;
 };
 
 struct Material {
@@ -40,13 +44,14 @@ struct Material {
 
 struct Scene {
     const MeshParts& parts;
-    std::vector<ObjectGroups> groups;  ///< of each part
+    std::vector<const Surface*> surfaces;  ///< those of the parts, and coarser ones
+    std::vector<ObjectGroups> groups;      ///< of each surface
     std::vector<std::int64_t> used;
     std::vector<Piece> pieces;
     std::vector<Material> materials;
     std::int64_t bytes = 0;  ///< of the binary chunk
 
-    [[nodiscard]] const Surface& surface(const Piece& piece) const { return parts.parts[piece.surface].surface(); }
+    [[nodiscard]] const Surface& surface(const Piece& piece) const { return *surfaces[piece.surface]; }
     [[nodiscard]] std::int64_t triangle(const Piece& piece, std::int64_t i) const { return groups[piece.surface].order[i]; }
     [[nodiscard]] const Point& point(const Piece& piece, std::size_t i) const { return surface(piece).points[used[piece.first_point + i]]; }
 };
@@ -86,16 +91,43 @@ void add_piece(Scene& scene, Piece piece) {
     scene.pieces.push_back(std::move(piece));
 }
 
+std::size_t add_surface(Scene& scene, const Surface& surface) {
+    scene.surfaces.push_back(&surface);
+    scene.groups.push_back(scene.parts.named ? one_group(surface) : group_by_object(surface));
+    return scene.surfaces.size() - 1;
+}
+
+/// The same objects in coarser versions of their surface; first_piece: of the surface.
+void add_coarser(Scene& scene, const MeshPart& part, std::size_t first_piece) {
+    const std::size_t end = scene.pieces.size();
+    for (const SimplifiedSurface& version : part.coarser) {
+        const std::size_t surface = add_surface(scene, version.surface);
+        const std::vector<ObjectGroups::Group> groups = scene.groups[surface].groups;
+        for (const ObjectGroups::Group& group : groups) {
+            const auto is_of_object = [&](const Piece& piece) { return scene.parts.named || piece.group.object == group.object; };
+            const auto begin = scene.pieces.begin();
+            const auto found =
+                std::find_if(begin + static_cast<std::ptrdiff_t>(first_piece), begin + static_cast<std::ptrdiff_t>(end), is_of_object);
+            if (found == begin + static_cast<std::ptrdiff_t>(end)) continue;
+            found->coarser.push_back(scene.pieces.size());
+            Piece piece{surface, group, found->name + " coarser " + std::to_string(found->coarser.size()), found->object, found->material};
+            piece.distance = version.distance;
+            piece.is_coarser = true;
+            add_piece(scene, std::move(piece));
+        }
+    }
+}
+
 /// Objects of one surface share the colours of objects; named parts have one material each.
 Scene make_scene(const MeshParts& parts) {
-    Scene scene{parts, {}, {}, {}, {}, 0};
+    Scene scene{parts, {}, {}, {}, {}, {}, 0};
     for (std::size_t p = 0; p < parts.parts.size(); ++p) {
         const MeshPart& part = parts.parts[p];
-        scene.groups.push_back(parts.named ? one_group(part.surface()) : group_by_object(part.surface()));
+        const std::size_t surface = add_surface(scene, part.surface()), first_piece = scene.pieces.size();
         const bool has_ids = scene.groups.back().has_ids, is_open = !part.surface().closed;
         const std::vector<ObjectGroups::Group> groups = scene.groups.back().groups;
         for (std::size_t g = 0; g < groups.size(); ++g) {
-            Piece piece{p, groups[g], part.name, parts.named ? static_cast<std::int64_t>(p) + 1 : has_ids ? groups[g].object : -1, 0};
+            Piece piece{surface, groups[g], part.name, parts.named ? static_cast<std::int64_t>(p) + 1 : has_ids ? groups[g].object : -1, 0};
             if (!parts.named) piece.name = has_ids ? "object_" + std::to_string(groups[g].object) : "surface";
             const SrgbBytes colour = parts.named ? part.colour : object_colour(static_cast<std::int64_t>(g));
             const auto is_shared = [&](const Material& material) { return !parts.named && material.colour == colour; };
@@ -105,6 +137,7 @@ Scene make_scene(const MeshParts& parts) {
                 scene.materials.push_back({colour, parts.named ? part.name : "colour " + std::to_string(piece.material + 1), is_open});
             add_piece(scene, std::move(piece));
         }
+        add_coarser(scene, part, first_piece);
     }
     return scene;
 }
@@ -120,12 +153,35 @@ void put_origin(JsonStream& json, const MeshParts& parts, const Surface& surface
     put_members(json, connectivity_of(surface));
 }
 
+/// Down to which part of the screen's area each version is to be drawn: until the next one is a pixel away from the exact surface on a
+/// screen of 1080 lines. Then, after the extras, which versions there are. Source: glTF extension MSFT_lod.
+void put_levels(JsonStream& json, const Scene& scene, const Piece& piece) {
+    constexpr double kLines = 1080;
+    if (!piece.coarser.empty()) {
+        const Point size{piece.high[0] - piece.low[0], piece.high[1] - piece.low[1], piece.high[2] - piece.low[2]};
+        const double across = std::hypot(size[0], size[1], size[2]);
+        json.key("MSFT_screencoverage").begin_array();
+        for (const std::size_t version : piece.coarser) {
+            const double lines = std::min(1.0, across / scene.pieces[version].distance / kLines);
+            json.value(lines * lines);
+        }
+        json.value(0).end_array();
+    }
+    json.end_object();
+    if (piece.coarser.empty()) return;
+    json.key("extensions").begin_object().key("MSFT_lod").begin_object().key("ids").begin_array();
+    for (const std::size_t version : piece.coarser) json.value(version + 1);
+    json.end_array().end_object().end_object();
+}
+
 /// Node 0 holds the others.
 void put_nodes(JsonStream& json, const Scene& scene) {
     const MeshParts& parts = scene.parts;
     json.line().key("nodes").begin_array().line().begin_object().key("name").value("isoatlas").key("matrix");
     json.value(gltf_frame(parts.parts.front().surface().space, parts.unit)).key("children").begin_array();
-    for (std::size_t i = 1; i <= scene.pieces.size(); ++i) json.value(i);
+    for (std::size_t i = 0; i < scene.pieces.size(); ++i) {
+        if (!scene.pieces[i].is_coarser) json.value(i + 1);
+    }
     json.end_array().key("extras").begin_object().key("frame").value(kVolumeFrame);
     put_space(json, parts);
     json.end_object().end_object();
@@ -135,7 +191,9 @@ void put_nodes(JsonStream& json, const Scene& scene) {
         json.key("extras").begin_object();
         if (piece.object >= 0) json.key("object").value(piece.object);
         put_origin(json, parts, scene.surface(piece));
-        json.end_object().end_object();
+        if (piece.is_coarser) json.key("distance").value(piece.distance);
+        put_levels(json, scene, piece);
+        json.end_object();
     }
     json.end_array();
 }
@@ -222,6 +280,7 @@ std::string scene_json(const Scene& scene) {
     json.end_object().end_object().line().key("scene").value(0).key("scenes").begin_array().begin_object();
     if (!scene.pieces.empty()) json.key("nodes").begin_array().value(0).end_array();
     json.end_object().end_array();
+    if (parts.has_coarser()) json.key("extensionsUsed").begin_array().value("MSFT_lod").end_array();
     if (!scene.pieces.empty()) {
         put_nodes(json, scene);
         put_meshes(json, scene);

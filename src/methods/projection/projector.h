@@ -34,7 +34,7 @@ struct Projector {
     /// The ray of a pixel, in samples; t is physical.
     [[nodiscard]] Ray ray_of(std::int64_t x, std::int64_t y) const {
         const Ray ray = rays.through(static_cast<double>(x) + 0.5, static_cast<double>(y) + 0.5, 0);
-        return {in_samples(subtract(ray.origin, info.geometry.origin)), in_samples(ray.direction)};
+        return {in_samples(minus(ray.origin, info.geometry.origin)), in_samples(ray.direction)};
     }
     [[nodiscard]] ProjectedPicture blank() const {
         return {

@@ -32,7 +32,7 @@ Volume ball_volume(std::int64_t size) {
     for (std::int64_t i = 0; i < volume.info.extent.voxels(); ++i) {
         const auto at = volume.info.extent.voxel(i);
         const Vec3 p = to_physical(geometry, {static_cast<double>(at[0]), static_cast<double>(at[1]), static_cast<double>(at[2])});
-        volume.samples<float>()[i] = static_cast<float>(20 - length(p));
+        volume.samples<float>()[i] = static_cast<float>(20 - norm(p));
     }
     return volume;
 }
