@@ -37,7 +37,7 @@ PUBLIC = {
     "persistence": "handles persistence",
     "levelset": "cut nested_labels",
     "mesh": "labels print surface",
-    "level_of_detail": "level_of_detail",
+    "level_of_detail": "cluster_hierarchy level_of_detail",
     "formats/common": "object_names output segmentation shell_word",
     "formats/volume": "dataset_path",
     "formats/mesh": "evolution_file",

@@ -56,6 +56,25 @@ void print_labels_text(const Arguments& arguments, Terminal& terminal, const Vol
                               table.regions.front().label));
 }
 
+struct LabelSurfaces {
+    std::vector<NamedSurface> surfaces{};
+    std::size_t points = 0, triangles = 0, segments = 0;
+    std::optional<Simplification> simplification;
+    CoarserVersions coarser;
+    std::optional<Printing> printing;
+    std::vector<std::string> notes{};
+};
+
+void add_surface(LabelSurfaces& made, std::int64_t label, Source& source, const LabelDirectory& directory, const SurfaceOptions& options) {
+    Surface part = extract_label(source.volume(), label, {.interpolant = source.interpolant(), .surface = options}, source.context());
+    if (made.simplification) simplify(part, source.info(), *made.simplification, source.context());
+    std::vector<SimplifiedSurface> versions;
+    if (made.coarser.most > 0) versions = coarser_versions(part, source.info(), made.coarser, source.context());
+    if (made.printing) print_surface(part, *made.printing, made.notes, source.context());
+    made.points += part.points.size(), made.triangles += part.triangles.size(), made.segments += part.segments.size();
+    made.surfaces.push_back({std::move(part), directory.title_of(label), directory.colour_of(label), std::move(versions)});
+}
+
 }  // namespace
 
 int list_label_objects(const Arguments& arguments, Terminal& terminal) {
@@ -84,49 +103,36 @@ int extract_label_objects(const Arguments& arguments, Terminal& terminal) {
     SurfaceOptions options;
     options.boundary = arguments.boundary, options.style = arguments.style, options.shell = arguments.shell;
     if (arguments.for_print) options.shell = ShellChoice::outer;
-    std::optional<Printing> printing;
-    if (arguments.for_print) printing = printing_of(arguments);
-    std::optional<Simplification> simplification;
-    if (arguments.simplification.is_asked_for()) simplification = simplification_of(arguments);
-    CoarserVersions coarser{.most = arguments.coarser};
-    std::vector<std::string> notes;
+    LabelSurfaces made{.simplification = {}, .coarser = {.most = arguments.coarser}, .printing = {}};
+    if (arguments.for_print) made.printing = printing_of(arguments);
+    if (arguments.simplification.is_asked_for()) made.simplification = simplification_of(arguments);
     const std::vector<std::int64_t> labels = directory.find(arguments.objects);
-    std::vector<NamedSurface> surfaces;
-    std::size_t points = 0, triangles = 0, segments = 0;
-    for (const std::int64_t label : labels) {
-        Surface part = extract_label(source.volume(), label, {.interpolant = source.interpolant(), .surface = options}, source.context());
-        if (simplification) simplify(part, source.info(), *simplification, source.context());
-        if (printing) print_surface(part, *printing, notes, source.context());
-        std::vector<SimplifiedSurface> versions;
-        if (coarser.most > 0) versions = coarser_versions(part, source.info(), coarser, source.context());
-        points += part.points.size(), triangles += part.triangles.size(), segments += part.segments.size();
-        surfaces.push_back({std::move(part), directory.title_of(label), directory.colour_of(label), std::move(versions)});
-    }
-    const Surface& surface = surfaces.front().surface;
+    for (const std::int64_t label : labels) add_surface(made, label, source, directory, options);
+    const Surface& surface = made.surfaces.front().surface;
     const SurfaceFileOptions file_options{.space = arguments.space.value_or(PointSpace::lps)};
     std::vector<std::string> warnings;
     {
         const WritingGuard guard;
-        warnings = write_surfaces(arguments.output, surfaces, file_options);
+        warnings = write_surfaces(arguments.output, made.surfaces, file_options);
     }
-    if (printing && !thin_walls_text(*printing).empty()) warnings.push_back(thin_walls_text(*printing));
+    if (made.printing && !thin_walls_text(*made.printing).empty()) warnings.push_back(thin_walls_text(*made.printing));
     for (const std::string& warning : warnings) terminal.warn(warning);
-    for (const std::string& note : notes) terminal.say("note: " + note);
-    const auto facets = static_cast<std::int64_t>(segments == 0 ? triangles : segments);
+    for (const std::string& note : made.notes) terminal.say("note: " + note);
+    const auto facets = static_cast<std::int64_t>(made.segments == 0 ? made.triangles : made.segments);
     if (arguments.json) {
         Json json = document("extract-labels", source.info(), surface.interpolant, 0, arguments.boundary);
         json["output"] = arguments.output;
         json["labels"] = labels;
-        json["points"] = points;
-        json["triangles"] = triangles;
-        json["segments"] = segments;
+        json["points"] = made.points;
+        json["triangles"] = made.triangles;
+        json["segments"] = made.segments;
         json["closed"] = surface.closed;
         json["space"] = space_in_file(arguments.output, surface.space, file_options);
         json["warnings"] = warnings;
-        json["notes"] = notes;
-        json["simplification"] = simplification ? simplification_json(*simplification) : Json(nullptr);
-        json["coarser"] = coarser_json(coarser);
-        json["print"] = printing ? printing_json(*printing) : Json(nullptr);
+        json["notes"] = made.notes;
+        json["simplification"] = made.simplification ? simplification_json(*made.simplification) : Json(nullptr);
+        json["coarser"] = coarser_json(made.coarser);
+        json["print"] = made.printing ? printing_json(*made.printing) : Json(nullptr);
         add_reads(json, source.reads());
         print(terminal, json);
         return 0;
@@ -134,9 +140,9 @@ int extract_label_objects(const Arguments& arguments, Terminal& terminal) {
     terminal.out() << shown_name(arguments.output) << ": " << counted(facets, surface.segments.empty() ? "triangle" : "segment") << " of "
                    << counted(std::ssize(labels), "label") << (surface.unit.empty() ? "" : ", in " + surface.unit) << ", "
                    << interpolant_text(source.info(), surface.interpolant, 0) << '\n';
-    if (simplification) terminal.out() << simplification_text(*simplification) << '\n';
-    if (coarser.most > 0) terminal.out() << coarser_text(coarser) << '\n';
-    if (printing) terminal.out() << printing_text(*printing) << '\n';
+    if (made.simplification) terminal.out() << simplification_text(*made.simplification) << '\n';
+    if (made.coarser.most > 0) terminal.out() << coarser_text(made.coarser) << '\n';
+    if (made.printing) terminal.out() << printing_text(*made.printing) << '\n';
     if (labels.size() == 1 && !surface.triangles.empty() && surface.closed)
         terminal.next("isoatlas verify " + shell_word(arguments.output));
     return 0;
