@@ -14,6 +14,7 @@
 #include "isoatlas/error.h"
 #include "isoatlas/surface.h"
 #include "isoatlas/verify.h"
+#include "mutants/coarser_surfaces.h"
 #include "mutants/damaged_inputs.h"
 #include "oracle/bodies.h"
 #include "oracle/compare.h"
@@ -212,6 +213,10 @@ int main() try {
         for (int k = 0; k < 8; ++k) cell.value.push_back(trial % 2 == 0 ? below(10000) / 10000.0 : below(8));
         const std::string difference = oracle::compare_with_finer(cell, oracle::cut_at_saddles(cell), 1e-9).difference;
         if (!difference.empty()) fail(difference, cell);
+    }
+    if (const std::string promise = mutants::broken_promise_of_coarser_surfaces(); !promise.empty()) {
+        std::printf("does not hold: %s\n", promise.c_str());
+        return 1;
     }
     return 0;
 } catch (const std::exception& error) {

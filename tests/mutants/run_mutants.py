@@ -14,7 +14,7 @@ import sys
 import tempfile
 
 # What the probe runs: rooms, and files of others.
-ROOMS = ("base", "field", "critical", "tree", "zones", "analysis", "features", "persistence", "levelset", "mesh", "formats")
+ROOMS = ("base", "geometry", "field", "critical", "tree", "zones", "analysis", "features", "persistence", "levelset", "mesh", "level_of_detail", "formats")
 FILES = ("server/request_head.cpp", "atlas/build_fingerprint.cpp")
 
 

@@ -1,0 +1,66 @@
+// What the probe knows about surfaces with fewer triangles: the first promise that does not hold.
+#pragma once
+
+#include <random>
+#include <string>
+
+#include "isoatlas/cluster_hierarchy.h"
+#include "oracle/coarse_surfaces.h"
+
+namespace mutants {
+
+/// Samples of few values, so that there are many small contours with tunnels, near each other.
+inline isoatlas::Volume rough_volume(std::mt19937& random, isoatlas::Index3 size) {
+    const isoatlas::Extent extent{3, size};
+    std::vector<float> samples;
+    for (std::int64_t i = 0; i < extent.voxels(); ++i) samples.push_back(static_cast<float>(random() % 7));
+    return isoatlas::make_volume<float>(extent, samples);
+}
+
+inline std::string broken_promise_of(const isoatlas::Volume& volume, double tau, std::mt19937& random) {
+    const oracle::Surface exact = isoatlas::extract(volume, tau);
+    const isoatlas::Geometry& geometry = volume.info.geometry;
+    const auto failure = [&](const oracle::Surface& coarse, double distance) {
+        const auto report = oracle::coarse_report(coarse, exact, volume.info, oracle::DistanceUnit::voxel, distance);
+        return oracle::coarse_failure(report, coarse, exact);
+    };
+    for (const double distance : {0.05, 0.3, 1.0}) {
+        const auto simplified = simplify_surface(exact, geometry, volume.info.extent, {.max_distance = distance});
+        if (const std::string found = failure(simplified.surface, simplified.distance); !found.empty())
+            return "simplified surface: " + found;
+    }
+    const auto hierarchy = make_clusters(exact, geometry, volume.info.extent, {.triangles = 12, .clusters = 5});
+    for (const unsigned tenths : {10U, 8U}) {
+        double distance = 0;
+        const oracle::Surface choice = surface_of_choice(hierarchy, [&](std::int64_t group) {
+            const bool is_chosen = random() % 10 < tenths;
+            if (is_chosen) distance = std::max(distance, hierarchy.groups[static_cast<std::size_t>(group)].distance);
+            return is_chosen;
+        });
+        if (const std::string found = failure(choice, distance); !found.empty()) return "choice of clusters: " + found;
+    }
+    return {};
+}
+
+/// A shape cut down to a size that takes no time.
+inline isoatlas::Volume small_volume(oracle::Shape shape, isoatlas::Index3 size) {
+    shape.extent.size = size;
+    return oracle::volume_of(shape);
+}
+
+inline std::string broken_promise_of_coarser_surfaces() {
+    std::mt19937 random(20261127);
+    for (const isoatlas::Index3 size : {isoatlas::Index3{9, 8, 7}, isoatlas::Index3{5, 12, 6}, isoatlas::Index3{24, 4, 4}}) {
+        const std::string found = broken_promise_of(rough_volume(random, size), 3.5, random);
+        if (!found.empty()) return found;
+    }
+    for (const oracle::Shape& shape : oracle::kShapes) {
+        const isoatlas::Index3 size{std::min<std::int64_t>(shape.extent.size[0], 22), std::min<std::int64_t>(shape.extent.size[1], 18),
+                                    std::min<std::int64_t>(shape.extent.size[2], 9)};
+        const std::string found = broken_promise_of(small_volume(shape, size), shape.tau, random);
+        if (!found.empty()) return found;
+    }
+    return {};
+}
+
+}  // namespace mutants
