@@ -19,7 +19,8 @@
 namespace isoatlas {
 namespace {
 
-constexpr std::size_t kMaxTriangles = std::size_t{1} << 29;  // points and triangles of all versions have numbers of 32 bits
+constexpr std::size_t kMaxOfAllVersions = std::size_t{1}
+                                          << 29;  // exact triangles: points and triangles of all versions have numbers of 32 bits
 
 struct Level {
     GroupGrid grid;
@@ -185,7 +186,7 @@ ClusterHierarchy make_clusters(const Surface& surface, const Geometry& geometry,
     if (options.triangles < 1 || options.clusters < 1) {
         throw Error(ErrorKind::usage, {.what = "the size of clusters or groups is not positive", .expected = "1 or more"});
     }
-    if (surface.triangles.size() >= kMaxTriangles) {
+    if (surface.triangles.size() >= kMaxOfAllVersions) {
         throw Error(ErrorKind::resource, {.what = "the surface has " + std::to_string(surface.triangles.size()) + " triangles",
                                           .expected = "fewer than 2^29 triangles",
                                           .next = "make the clusters of its objects one by one"});
