@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "isoatlas/cluster_hierarchy.h"
+#include "level_of_detail/without_points.h"
 
 namespace isoatlas {
 namespace {
@@ -9,11 +10,7 @@ namespace {
 /// The points that the triangles of these clusters use, in the order of the hierarchy.
 Surface part_of(const ClusterHierarchy& hierarchy, const std::vector<std::int64_t>& clusters) {
     const Surface& all = hierarchy.surface;
-    Surface part;
-    part.tau = all.tau, part.reported_tau = all.reported_tau;
-    part.space = all.space, part.unit = all.unit;
-    part.closed = all.closed, part.interpolant = all.interpolant, part.polarity = all.polarity;
-    part.tunnel_height = all.tunnel_height, part.reported_tunnel_height = all.reported_tunnel_height;
+    Surface part = without_points(all);
     std::vector<std::int64_t> place(all.points.size(), -1);
     for (const std::int64_t i : clusters) {
         const Cluster& cluster = hierarchy.clusters[static_cast<std::size_t>(i)];

@@ -3,32 +3,51 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <tuple>
+#include <map>
 
 namespace isoatlas {
 
+namespace {
+
+using Cube = std::array<std::int64_t, 3>;
+using Groups = std::map<Cube, std::vector<std::int64_t>>;
+
+/// The largest group in the cubes around; the first of those. Null: there is none.
+std::vector<std::int64_t>* largest_beside(Groups& groups, const Cube& cube) {
+    std::vector<std::int64_t>* largest = nullptr;
+    for (std::int64_t i = 0; i < 27; ++i) {
+        const auto found = groups.find({cube[0] + i / 9 - 1, cube[1] + i / 3 % 3 - 1, cube[2] + i % 3 - 1});
+        if (found == groups.end() || found->first == cube || found->second.empty()) continue;
+        if (largest == nullptr || found->second.size() > largest->size()) largest = &found->second;
+    }
+    return largest;
+}
+
+}  // namespace
+
 std::vector<std::vector<std::int64_t>> grouped(const Versions& versions, std::span<const std::int64_t> clusters, const GroupGrid& grid) {
-    struct Placed {
-        std::array<std::int64_t, 3> cube;
-        std::int64_t cluster;
-    };
-    std::vector<Placed> placed;
+    Groups groups;
     for (const std::int64_t cluster : clusters) {
         const BoundingBox& box = versions.box(cluster);
-        Placed place{{}, cluster};
+        Cube cube{};
         for (std::size_t axis = 0; axis < 3; ++axis) {
             const double middle = (box.low[axis] + box.high[axis]) / 2 - grid.low[axis] + grid.shift;
-            place.cube[axis] = static_cast<std::int64_t>(std::floor(middle / grid.edge));
+            cube[axis] = static_cast<std::int64_t>(std::floor(middle / grid.edge));
         }
-        placed.push_back(place);
+        groups[cube].push_back(cluster);
     }
-    std::ranges::sort(placed, [](const Placed& a, const Placed& b) { return std::tie(a.cube, a.cluster) < std::tie(b.cube, b.cluster); });
-    std::vector<std::vector<std::int64_t>> groups;
-    for (std::size_t i = 0; i < placed.size(); ++i) {
-        if (i == 0 || placed[i].cube != placed[i - 1].cube) groups.emplace_back();
-        groups.back().push_back(placed[i].cluster);
+    for (auto& [cube, alone] : groups) {
+        if (alone.size() != 1) continue;
+        std::vector<std::int64_t>* const largest = largest_beside(groups, cube);
+        if (largest == nullptr) continue;
+        largest->push_back(alone[0]);
+        alone.clear();
     }
-    return groups;
+    std::vector<std::vector<std::int64_t>> filled;
+    for (auto& [cube, group] : groups) {
+        if (!group.empty()) filled.push_back(std::move(group));
+    }
+    return filled;
 }
 
 std::vector<std::size_t> colours_of(std::span<const BoundingBox> boxes) {

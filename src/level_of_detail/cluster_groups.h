@@ -15,7 +15,7 @@ struct GroupGrid {
     double edge, shift;
 };
 
-/// Clusters by the cube in which the middle of their box lies.
+/// Clusters by the cube in which the middle of their box lies; one that is alone in its cube goes with the largest group beside it.
 [[nodiscard]] std::vector<std::vector<std::int64_t>> grouped(const Versions& versions, std::span<const std::int64_t> clusters,
                                                              const GroupGrid& grid);
 

@@ -14,6 +14,7 @@
 #include "level_of_detail/collapse_block.h"
 #include "level_of_detail/normal_near.h"
 #include "level_of_detail/surface_frame.h"
+#include "level_of_detail/without_points.h"
 
 namespace isoatlas {
 namespace {
@@ -43,11 +44,7 @@ std::vector<Pass> passes(double step, double tolerance) {
 /// The points that the triangles use, in their order.
 Surface remaining(const Surface& surface, const SurfaceState& state, const OriginalSurface& original) {
     const CollapsibleMesh& mesh = state.mesh;
-    Surface result;
-    result.tau = surface.tau, result.reported_tau = surface.reported_tau;
-    result.space = surface.space, result.unit = surface.unit;
-    result.closed = surface.closed, result.interpolant = surface.interpolant, result.polarity = surface.polarity;
-    result.tunnel_height = surface.tunnel_height, result.reported_tunnel_height = surface.reported_tunnel_height;
+    Surface result = without_points(surface);
     std::vector<std::int64_t> place(surface.points.size(), -1);
     for (std::uint32_t point = 0; point < mesh.points(); ++point) {
         if (!mesh.has_point(point)) continue;

@@ -51,7 +51,10 @@ bool StarDeviation::project(const Star& star, const SurfaceState& state) {
         before_.push_back({t.apex == star.gone ? gone_ : kept_, b, c});
         if (!faces(before_.back())) return false;
         sides_before_.push_back({before_.back().a, b});
-        if (t.disappears) continue;
+        if (t.disappears) {
+            sides_before_.push_back({b, c});  // from the kept point: no other triangle begins with one of them
+            continue;
+        }
         after_.push_back({new_, b, c});
         if (!faces(after_.back())) return false;
         sides_after_.push_back({new_, b});
