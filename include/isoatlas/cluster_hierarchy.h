@@ -46,7 +46,7 @@ struct ClusterOptions {
 /// none, and no chosen group replaces are a surface with the contours of `surface`, each with its genus, nested alike, closed where
 /// `surface` is, without crossings; both are at most as far apart as the greatest distance of a chosen group says, both ways.
 /// docs/theory/10-level-of-detail.md has the proof. Throws Error as simplify_surface(). The same bytes for any number of threads.
-/// Cost: some 100 us a triangle. Memory: some 400 bytes a triangle.
+/// Cost: some 150 us a triangle on one processor. Memory: some 400 bytes a triangle.
 [[nodiscard]] ClusterHierarchy make_clusters(const Surface& surface, const Geometry& geometry, const Extent& extent,
                                              const ClusterOptions& options = {}, const Context& context = {});
 
