@@ -35,9 +35,7 @@ Surface part_of(const ClusterHierarchy& hierarchy, const std::vector<std::int64_
     return part;
 }
 
-}  // namespace
-
-Surface surface_of_choice(const ClusterHierarchy& hierarchy, const std::function<bool(std::int64_t)>& is_chosen) {
+std::vector<std::int64_t> clusters_of_choice(const ClusterHierarchy& hierarchy, const std::function<bool(std::int64_t)>& is_chosen) {
     std::vector<std::uint8_t> chosen(hierarchy.groups.size(), 0);
     for (std::size_t i = 0; i < chosen.size(); ++i) {
         const bool may_be = std::ranges::all_of(hierarchy.groups[i].made_of,
@@ -51,12 +49,28 @@ Surface surface_of_choice(const ClusterHierarchy& hierarchy, const std::function
         if ((cluster.made_by < 0 || is_in(cluster.made_by)) && !is_in(cluster.replaced_by))
             clusters.push_back(static_cast<std::int64_t>(i));
     }
-    return part_of(hierarchy, clusters);
+    return clusters;
+}
+
+std::vector<std::int64_t> clusters_within(const ClusterHierarchy& hierarchy, double distance) {
+    return clusters_of_choice(hierarchy,
+                              [&](std::int64_t group) { return hierarchy.groups[static_cast<std::size_t>(group)].distance <= distance; });
+}
+
+std::int64_t triangles_of(const ClusterHierarchy& hierarchy, const std::vector<std::int64_t>& clusters) {
+    std::int64_t triangles = 0;
+    for (const std::int64_t i : clusters) triangles += hierarchy.clusters[static_cast<std::size_t>(i)].triangles;
+    return triangles;
+}
+
+}  // namespace
+
+Surface surface_of_choice(const ClusterHierarchy& hierarchy, const std::function<bool(std::int64_t)>& is_chosen) {
+    return part_of(hierarchy, clusters_of_choice(hierarchy, is_chosen));
 }
 
 Surface surface_within(const ClusterHierarchy& hierarchy, double distance) {
-    return surface_of_choice(hierarchy,
-                             [&](std::int64_t group) { return hierarchy.groups[static_cast<std::size_t>(group)].distance <= distance; });
+    return part_of(hierarchy, clusters_within(hierarchy, distance));
 }
 
 std::vector<SimplifiedSurface> coarser_surfaces(const ClusterHierarchy& hierarchy, std::int64_t most) {
@@ -66,13 +80,14 @@ std::vector<SimplifiedSurface> coarser_surfaces(const ClusterHierarchy& hierarch
     const auto doubled = std::ranges::unique(distances);
     distances.erase(doubled.begin(), doubled.end());
     std::vector<SimplifiedSurface> coarser;
-    std::size_t triangles = surface_within(hierarchy, 0).triangles.size();
+    std::int64_t triangles = triangles_of(hierarchy, clusters_within(hierarchy, 0));
     for (const double distance : distances) {
         if (static_cast<std::int64_t>(coarser.size()) == most) break;
-        SimplifiedSurface next{surface_within(hierarchy, distance), distance};
-        if (3 * next.surface.triangles.size() > triangles) continue;
-        triangles = next.surface.triangles.size();
-        coarser.push_back(std::move(next));
+        const std::vector<std::int64_t> clusters = clusters_within(hierarchy, distance);
+        const std::int64_t left = triangles_of(hierarchy, clusters);
+        if (3 * left > triangles) continue;
+        triangles = left;
+        coarser.push_back({part_of(hierarchy, clusters), distance});
     }
     return coarser;
 }

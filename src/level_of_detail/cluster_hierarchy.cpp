@@ -19,8 +19,7 @@
 namespace isoatlas {
 namespace {
 
-constexpr std::size_t kMaxOfAllVersions = std::size_t{1}
-                                          << 29;  // exact triangles: points and triangles of all versions have numbers of 32 bits
+constexpr std::size_t kMaxOfExact = std::size_t{1} << 29;  // triangles: clusters and corners of a group have numbers of 32 bits
 
 struct Level {
     GroupGrid grid;
@@ -37,8 +36,7 @@ public:
           current_(hierarchy.clusters.size()) {
         std::iota(current_.begin(), current_.end(), std::int64_t{0});
         for (const std::int64_t cluster : current_) all_.add(versions_.box(cluster));
-        const Vec3 size = minus(all_.high, all_.low);
-        size_ = std::sqrt(dot(size, size));
+        size_ = norm(minus(all_.high, all_.low));
         level_ = {{all_.low, frame.step(), 0}, options.first_distance * frame.step()};
     }
 
@@ -64,10 +62,7 @@ private:
         for (const std::int64_t i : current_) {
             const Cluster& cluster = hierarchy_.clusters[static_cast<std::size_t>(i)];
             triangles += cluster.triangles;
-            for (const auto& [a, b, c] : versions_.triangles_of(cluster)) {
-                const Vec3 &p = versions_.scaled(a), n = cross(minus(versions_.scaled(b), p), minus(versions_.scaled(c), p));
-                area += std::sqrt(dot(n, n)) / 2;
-            }
+            for (const TriangleCorners& t : versions_.triangles_of(cluster)) area += versions_.area(t);
         }
         return std::sqrt(static_cast<double>(options_.clusters * options_.triangles) * area / static_cast<double>(triangles));
     }
@@ -186,7 +181,7 @@ ClusterHierarchy make_clusters(const Surface& surface, const Geometry& geometry,
     if (options.triangles < 1 || options.clusters < 1) {
         throw Error(ErrorKind::usage, {.what = "the size of clusters or groups is not positive", .expected = "1 or more"});
     }
-    if (surface.triangles.size() >= kMaxOfAllVersions) {
+    if (surface.triangles.size() >= kMaxOfExact) {
         throw Error(ErrorKind::resource, {.what = "the surface has " + std::to_string(surface.triangles.size()) + " triangles",
                                           .expected = "fewer than 2^29 triangles",
                                           .next = "make the clusters of its objects one by one"});

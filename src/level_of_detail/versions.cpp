@@ -10,8 +10,7 @@ namespace isoatlas {
 namespace {
 
 void add_ball(ClusterGroup& group, const Vec3& centre, double radius) {
-    const Vec3 apart = minus(centre, group.centre);
-    group.radius = std::max(group.radius, std::sqrt(dot(apart, apart)) + radius);
+    group.radius = std::max(group.radius, norm(minus(centre, group.centre)) + radius);
 }
 
 }  // namespace
@@ -58,14 +57,11 @@ Versions::Versions(ClusterHierarchy& hierarchy, const SurfaceFrame& frame, const
     mark_rims(CollapsibleMesh(surface.triangles, surface.points.size()), faces);
     faces_.assign(faces.begin(), faces.end());
     BoundingBox all;
-    double area = 0;
+    double all_area = 0;
     for (const Vec3& p : scaled_) all.add(p);
-    for (const auto& [a, b, c] : surface.triangles) {
-        const Vec3 n = cross(minus(scaled(b), scaled(a)), minus(scaled(c), scaled(a)));
-        area += std::sqrt(dot(n, n)) / 2;
-    }
+    for (const TriangleCorners& t : surface.triangles) all_area += area(t);
     const double cell =
-        std::sqrt(static_cast<double>(options.triangles * options.clusters) * area / static_cast<double>(surface.triangles.size()));
+        std::sqrt(static_cast<double>(options.triangles * options.clusters) * all_area / static_cast<double>(surface.triangles.size()));
     places_.clear(all, std::max(cell, frame.step()));
     Triangles triangles(surface.triangles.begin(), surface.triangles.end());
     surface.triangles.clear();
@@ -104,8 +100,7 @@ std::int64_t Versions::add_group(std::span<const std::int64_t> clusters) {
     const auto doubled = std::ranges::unique(group.made_of);
     group.made_of.erase(doubled.begin(), doubled.end());
     for (std::size_t axis = 0; axis < 3; ++axis) group.centre[axis] = (box.low[axis] + box.high[axis]) / 2;
-    const Vec3 across = minus(box.high, group.centre);
-    group.radius = std::sqrt(dot(across, across));
+    group.radius = norm(minus(box.high, group.centre));
     for (const std::int64_t i : group.made_of) {
         const ClusterGroup& part = hierarchy_.groups[static_cast<std::size_t>(i)];
         add_ball(group, part.centre, part.radius);

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "geometry/triangle_tree.h"
+#include "geometry/vectors.h"
 #include "isoatlas/cluster_hierarchy.h"
 #include "level_of_detail/surface_frame.h"
 #include "level_of_detail/triangle_grid.h"
@@ -45,6 +46,11 @@ public:
     [[nodiscard]] const BoundingBox& box(std::int64_t cluster) const { return boxes_[static_cast<std::size_t>(cluster)]; }
     [[nodiscard]] BoundingBox box_of(const TriangleCorners& triangle) const {
         return isoatlas::box_of(scaled(triangle[0]), scaled(triangle[1]), scaled(triangle[2]));
+    }
+
+    [[nodiscard]] double area(const TriangleCorners& triangle) const {  ///< scaled
+        const auto& [a, b, c] = triangle;
+        return norm(cross(minus(scaled(b), scaled(a)), minus(scaled(c), scaled(a)))) / 2;
     }
 
     /// A new group that replaces these clusters, without what replaces them. Returns its number.

@@ -67,8 +67,7 @@ std::vector<std::string> write_surface(Sink& sink, const Surface& surface, const
 }
 
 std::vector<std::string> write_surface(const std::string& path, const Surface& surface, const SurfaceFileOptions& options) {
-    (void)format_of(path);
-    return write(path, mesh_parts(surface, options, path));
+    return write_surface(path, surface, std::span<const SimplifiedSurface>{}, options);
 }
 
 std::vector<std::string> write_surface(const std::string& path, const Surface& surface, std::span<const SimplifiedSurface> coarser,
