@@ -169,7 +169,7 @@ private:
 
     /// For bricks in ascending order; adjacent ones are merged into one call.
     void take_memory(const std::vector<BrickId>& bricks, int threads) {
-        constexpr std::int64_t kTogether = 1024;
+        constexpr std::int64_t kTogether = 32;
         const auto count = static_cast<std::int64_t>(bricks.size());
         for_each_block(threads, (count + kTogether - 1) / kTogether, [&](std::int64_t block) {
             const std::int64_t end = std::min((block + 1) * kTogether, count);

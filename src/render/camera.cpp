@@ -36,6 +36,10 @@ Vec3 CameraRays::project(const Vec3& point) const {
     return {width_ / 2 + nearer * dot(from, right) / pixel_, height_ / 2 - nearer * dot(from, up) / pixel_, depth};
 }
 
+double CameraRays::eye_depth() const {
+    return camera_.projection == Projection::orthographic ? std::numeric_limits<double>::infinity() : camera_.distance;
+}
+
 namespace {
 
 struct Span {

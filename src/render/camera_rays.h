@@ -20,7 +20,11 @@ public:
     [[nodiscard]] Ray through(double x, double y, double behind) const;
     /// Pixel position and distance in front of the target's plane.
     [[nodiscard]] Vec3 project(const Vec3& point) const;
-    [[nodiscard]] double pixel_size() const { return pixel_; }  ///< physical, in the target's plane
+    /// Of an eye in perspective; infinite for parallel rays. What is not nearer than this to the target's plane is behind the eye.
+    [[nodiscard]] double eye_depth() const;
+    [[nodiscard]] std::int64_t width() const { return static_cast<std::int64_t>(width_); }    ///< of the picture, in pixels
+    [[nodiscard]] std::int64_t height() const { return static_cast<std::int64_t>(height_); }  ///< of the picture, in pixels
+    [[nodiscard]] double pixel_size() const { return pixel_; }                                ///< physical, in the target's plane
 
     Vec3 right, up, toward;
 

@@ -44,6 +44,9 @@ public:
         if (inside) visit(since, end);
     }
 
+    [[nodiscard]] const Index3& count() const { return count_; }  ///< blocks along each axis
+    [[nodiscard]] bool visible(const Index3& block) const { return side_[0][block[0] + count_[0] * (block[1] + count_[1] * block[2])] > 0; }
+
 private:
     /// Exit points of a ray from cubes of blocks, all empty or all visible, that begin at a block and lie in the ray's octant (after
     /// Zuiderveld, Koning, Viergever: Acceleration of ray casting using 3D distance transforms, 1992; theirs lie around the block).

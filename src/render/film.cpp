@@ -14,21 +14,21 @@ std::array<float, 3> floats(const Vec3& v) { return {static_cast<float>(v[0]), s
 Vec3 doubles(const std::array<float, 3>& v) { return {v[0], v[1], v[2]}; }
 
 /// Weight of pixel b for pixel a: close in the picture, on the same surface, with similar normals. depth_scale: 1 / allowed difference.
-double likeness(const FilmPixel& a, const FilmPixel& b, double squared_distance, double depth_scale) {
-    if (b.surface == 0) return 0;
+double likeness(const FilmSurface& a, const FilmSurface& b, double squared_distance, double depth_scale) {
+    if (b.part == 0) return 0;
     const double facing = std::max(0.0, dot(doubles(a.normal), doubles(b.normal)));
     const double f2 = facing * facing, f4 = f2 * f2, f8 = f4 * f4;
     const double depth = (a.depth - b.depth) * depth_scale;
-    return b.surface * f8 * f8 * std::exp(-squared_distance / 6 - depth * depth);
+    return b.part * f8 * f8 * std::exp(-squared_distance / 6 - depth * depth);
 }
 
-void smooth_pixel(const Film& from, std::int64_t x, std::int64_t y, double pixel, FilmPixel& to) {
-    const FilmPixel& centre = from.pixels[x + from.width * y];
-    if (centre.surface == 0) return;
+void smooth_pixel(const Film& from, std::int64_t x, std::int64_t y, double pixel, FilmSurface& to) {
+    const FilmSurface& centre = from.surfaces[x + from.width * y];
+    if (centre.part == 0) return;
     double weight = 0, sky = 0, key = 0;
     for (std::int64_t v = std::max<std::int64_t>(0, y - kSmooth); v <= std::min(from.height - 1, y + kSmooth); ++v) {
         for (std::int64_t u = std::max<std::int64_t>(0, x - kSmooth); u <= std::min(from.width - 1, x + kSmooth); ++u) {
-            const FilmPixel& other = from.pixels[u + from.width * v];
+            const FilmSurface& other = from.surfaces[u + from.width * v];
             const auto squared = static_cast<double>((u - x) * (u - x) + (v - y) * (v - y));
             const double w = likeness(centre, other, squared, 1 / (pixel * (4 + 3 * std::sqrt(squared))));
             weight += w, sky += w * other.open_sky, key += w * other.open_key;
@@ -38,10 +38,15 @@ void smooth_pixel(const Film& from, std::int64_t x, std::int64_t y, double pixel
     to.open_sky = static_cast<float>(sky / weight), to.open_key = static_cast<float>(key / weight);
 }
 
-void develop_pixel(const FilmPixel& pixel, const Vec3& behind, bool transparent, const SrgbEncoder& encoder, std::uint8_t* out) {
+bool is_empty(const FilmPixel& pixel) { return pixel.opacity == 0 && pixel.glow == std::array<float, 3>{}; }
+
+void develop_pixel(const FilmPixel& pixel, const FilmSurface* surface, const Vec3& behind, bool transparent, const SrgbEncoder& encoder,
+                   std::uint8_t* out) {
     Vec3 light = doubles(pixel.glow);
-    light = along(light, pixel.open_sky, doubles(pixel.ambient));
-    light = along(light, pixel.open_key, doubles(pixel.key));
+    if (surface != nullptr) {
+        light = along(light, surface->open_sky, doubles(surface->ambient));
+        light = along(light, surface->open_key, doubles(surface->key));
+    }
     const double opacity = std::clamp<double>(pixel.opacity, 0, 1);
     if (transparent) {
         if (opacity > 0) light = scale(light, 1 / opacity);
@@ -66,21 +71,25 @@ void FilmSum::add(const Seen& seen) {
 }
 
 FilmPixel FilmSum::mean() const {
-    const double part = 1.0 / samples_, part_of_hits = hits_ > 0 ? 1.0 / hits_ : 0;
-    FilmPixel pixel{floats(scale(glow_, part)), floats(scale(ambient_, part)), floats(scale(key_, part)),
-                    static_cast<float>(opacity_ * part)};
-    if (hits_ == 0) return pixel;
-    pixel.open_sky = static_cast<float>(sky_ * part_of_hits), pixel.open_key = static_cast<float>(key_light_ * part_of_hits);
-    pixel.surface = static_cast<float>(hits_ * part), pixel.depth = static_cast<float>(depth_ * part_of_hits);
-    pixel.normal = floats(unit(normal_));
-    return pixel;
+    const double part = 1.0 / samples_;
+    return {floats(scale(glow_, part)), static_cast<float>(opacity_ * part)};
+}
+
+FilmSurface FilmSum::mean_surface() const {
+    if (hits_ == 0) return {};
+    const double part = 1.0 / samples_, part_of_hits = 1.0 / hits_;
+    FilmSurface surface{.ambient = floats(scale(ambient_, part)), .key = floats(scale(key_, part))};
+    surface.open_sky = static_cast<float>(sky_ * part_of_hits), surface.open_key = static_cast<float>(key_light_ * part_of_hits);
+    surface.part = static_cast<float>(hits_ * part), surface.depth = static_cast<float>(depth_ * part_of_hits);
+    surface.normal = floats(unit(normal_));
+    return surface;
 }
 
 void smooth_light(Film& film, double pixel, int threads) {
-    if (std::ranges::none_of(film.pixels, [](const FilmPixel& p) { return p.surface > 0; })) return;
+    if (std::ranges::none_of(film.surfaces, [](const FilmSurface& s) { return s.part > 0; })) return;
     const Film from = film;
     for_each_block(threads, film.height, [&](std::int64_t y) {
-        for (std::int64_t x = 0; x < film.width; ++x) smooth_pixel(from, x, y, pixel, film.pixels[x + film.width * y]);
+        for (std::int64_t x = 0; x < film.width; ++x) smooth_pixel(from, x, y, pixel, film.surfaces[x + film.width * y]);
     });
 }
 
@@ -89,8 +98,19 @@ Image developed(const Film& film, Background background, int threads) {
     const SrgbEncoder& encoder = SrgbEncoder::instance();
     for_each_block(threads, film.height, [&](std::int64_t y) {
         const Vec3 behind = background_light(background, (static_cast<double>(y) + 0.5) / static_cast<double>(film.height));
-        for (std::int64_t x = 0; x < film.width; ++x)
-            develop_pixel(film.pixels[x + film.width * y], behind, background == Background::transparent, encoder, image.at(x, y));
+        const auto develop = [&](const FilmPixel& pixel, const FilmSurface* surface, std::uint8_t* out) {
+            develop_pixel(pixel, surface, behind, background == Background::transparent, encoder, out);
+        };
+        std::array<std::uint8_t, 4> nothing;
+        develop({}, nullptr, nothing.data());
+        for (std::int64_t x = 0; x < film.width; ++x) {
+            const std::int64_t i = x + film.width * y;
+            const FilmPixel& pixel = film.pixels[i];
+            if (is_empty(pixel))
+                std::ranges::copy(nothing, image.at(x, y));
+            else
+                develop(pixel, film.surfaces.empty() ? nullptr : &film.surfaces[i], image.at(x, y));
+        }
     });
     return image;
 }

@@ -9,11 +9,16 @@
 namespace isoatlas {
 
 struct FilmPixel {
-    std::array<float, 3> glow{}, ambient{}, key{};
+    std::array<float, 3> glow{};
     float opacity = 0;
+};
+
+/// What a pixel shows of opaque surfaces.
+struct FilmSurface {
+    std::array<float, 3> ambient{}, key{};
     float open_sky = 1, open_key = 1;
-    float surface = 0;  ///< part of the samples that hit an opaque surface
-    float depth = 0;    ///< mean over those
+    float part = 0;   ///< of the samples that hit one
+    float depth = 0;  ///< mean over those
     std::array<float, 3> normal{};
 };
 
@@ -21,6 +26,7 @@ class FilmSum {
 public:
     void add(const Seen& seen);
     [[nodiscard]] FilmPixel mean() const;
+    [[nodiscard]] FilmSurface mean_surface() const;
 
 private:
     Vec3 glow_{}, ambient_{}, key_{}, normal_{};
@@ -31,7 +37,9 @@ private:
 struct Film {
     std::int64_t width, height;
     std::vector<FilmPixel> pixels;
-    Film(std::int64_t columns, std::int64_t rows) : width(columns), height(rows), pixels(columns * rows) {}
+    std::vector<FilmSurface> surfaces;  ///< of every pixel; empty: none has any
+    Film(std::int64_t columns, std::int64_t rows, bool has_surfaces = false)
+        : width(columns), height(rows), pixels(columns * rows), surfaces(has_surfaces ? columns * rows : 0) {}
 };
 
 /// Denoises sky and key light visibility over neighbouring pixels of the same surface, as it is sampled with few rays.

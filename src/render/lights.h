@@ -25,16 +25,24 @@ public:
     struct Parts {
         double ambient, key, highlight;
     };
-    /// towards: cosine of the normal and the direction to the eye. half: half_way() of that direction.
-    [[nodiscard]] Parts parts(const Vec3& normal, double towards, const Vec3& half) const;
-    /// The unit vector between the directions to the key light and to the eye.
-    [[nodiscard]] Vec3 half_way(const Vec3& to_eye) const { return unit(plus(key_, to_eye)); }
+    /// How negative gradients, given as differences along the axes of samples, lie to one eye and its lights.
+    struct GradientView {
+        std::array<std::array<double, 4>, 3> physical;  ///< of a difference of 1 along each axis; the fourth is 0
+        std::array<std::array<double, 4>, 3> along;     ///< the same, along: key light, up, half way from it to the eye, eye
+    };
+    /// to_voxel: rows: physical difference to sample difference.
+    [[nodiscard]] GradientView gradient_view(const Mat3& to_voxel, const Vec3& to_eye) const;
+    /// Where the surface that the gradient belongs to is seen from either side. Without a gradient: some ambient light.
+    static void parts(const Vec3& fall, const GradientView& view, Parts& found);
     /// A thin sheet: lit from both sides, with no shadow.
     [[nodiscard]] Vec3 shade_sheet(const Vec3& albedo, const Vec3& normal, const Vec3& to_eye) const;
     /// A direction to a point of the key light, which is a disk.
     [[nodiscard]] Vec3 to_key(Sample2 sample) const;
 
 private:
+    /// The unit vector between the directions to the key light and to the eye.
+    [[nodiscard]] Vec3 half_way(const Vec3& to_eye) const { return unit(plus(key_, to_eye)); }
+
     Vec3 up_, key_, key_u_, key_v_;
 };
 

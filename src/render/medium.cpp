@@ -9,7 +9,8 @@ namespace isoatlas {
 namespace {
 
 constexpr double kEnough = 0.996;  // opacity for early ray termination
-constexpr double kMin = 5e-4;      // min opacity of a segment for computing a gradient
+constexpr std::int64_t kMaxGradients = std::int64_t{1} << 20;
+constexpr double kMin = 5e-4;  // min opacity of a segment for computing a gradient
 
 /// t at which a ray in sample coordinates is inside the box from low to high.
 Gap inside_box(const Vec3& origin, const Vec3& way, const Vec3& low, const Vec3& high) {
@@ -47,25 +48,17 @@ BlockRanges ranges_of_regular(const Volume& volume, int threads) {
     return block_ranges(volume, threads);
 }
 
-/// 1 - exp(-x) for x >= 0, to 1e-8.
-double swallowed(double x) {
-    if (x > 0.125) return 1 - std::exp(-x);
-    return x * (1 - x * (1.0 / 2) * (1 - x * (1.0 / 3) * (1 - x * (1.0 / 4) * (1 - x * (1.0 / 5)))));
-}
-
-/// Adds segments of a ray, front to back: t and place (see Transfer) of the begin of the first one and of the end of each. shade(light,
-/// weight, t of its middle) turns the colour of one into its light. False: nothing behind them is seen.
+/// Adds segments, front to back. shade(light, weight, t of its middle) turns the colour of one into its light. False: nothing behind them
+/// is seen.
 template <class ShadeSegment>
-bool absorb(std::span<const double> t, const std::array<float, kLanes + 1>& place, const Transfer& transfer, const ShadeSegment& shade,
-            Gathered& gathered) {
-    for (unsigned left = transfer.visible_between(place) & ((1U << (t.size() - 1)) - 1); left != 0; left &= left - 1) {
+bool absorb(const SegmentEnds& ends, const Transfer& transfer, const ShadeSegment& shade, Gathered& gathered) {
+    const auto& t = ends.t;
+    std::array<SegmentLight, kLanes> lights;
+    for (unsigned left = transfer.lights(ends, lights); left != 0; left &= left - 1) {
         const auto i = static_cast<std::size_t>(std::countr_zero(left));
-        const OpticalProperties matter = transfer.mean(static_cast<double>(place[i]), static_cast<double>(place[i + 1]));
-        if (!(matter.extinction > 0)) continue;
-        const double weight = (1 - gathered.opacity) * swallowed(matter.extinction * (t[i + 1] - t[i]));
-        Vec3 light = scale(matter.glow, 1 / matter.extinction);
-        shade(light, weight, (t[i] + t[i + 1]) / 2);  // in place: a copy would wait for what has just been stored
-        gathered.light = along(gathered.light, weight, light);
+        const double weight = (1 - gathered.opacity) * lights[i].opacity;
+        shade(lights[i].colour, weight, (t[i] + t[i + 1]) / 2);
+        gathered.light = along(gathered.light, weight, lights[i].colour);
         gathered.opacity += weight;
         if (gathered.opacity >= kEnough) return false;
     }
@@ -87,8 +80,11 @@ Medium::Medium(const Scene& scene, const Frame& frame, const Lights* lights, con
       to_voxel_(physical_to_voxel(volume_->info.geometry)) {
     const Vec3& spacing = volume_->info.geometry.spacing;
     step_ = scene.volume.sample_distance * std::min({spacing[0], spacing[1], spacing[2]}) / frame.radius;
+    if (lights != nullptr && volume_->info.extent.voxels() <= kMaxGradients) gradients_ = {*volume_, threads};
     if (scene.volume.shadows && lights != nullptr) shadow_ = shadows(solid, threads);
 }
+
+Footprint Medium::footprint(const CameraRays& camera) const { return footprint_of(blocks_, volume_->info, camera); }
 
 Vec3 Medium::voxel_direction(const Vec3& way) const {
     const Vec3 physical = scale(way, frame_.radius);
@@ -98,21 +94,6 @@ Vec3 Medium::voxel_direction(const Vec3& way) const {
 Vec3 Medium::voxel_of(const Vec3& point) const {
     const Vec3 physical = minus(frame_.outside(point), volume_->info.geometry.origin);
     return {dot(to_voxel_[0], physical), dot(to_voxel_[1], physical), dot(to_voxel_[2], physical)};
-}
-
-void Medium::shade(const Vec3& fall, const Lights& lights, const Vec3& voxel, const Vec3& to_eye, const Vec3& half, Vec3& light) const {
-    Vec3 normal{};  // the gradient is the transpose of to_voxel_ times the differences along the axes
-    for (int c = 0; c < 3; ++c) normal[c] = fall[0] * to_voxel_[0][c] + fall[1] * to_voxel_[1][c] + fall[2] * to_voxel_[2][c];
-    const double size = norm(normal), towards = dot(normal, to_eye);
-    if (size == 0) {
-        for (double& part : light) part *= 0.6;
-        return;
-    }
-    const double factor = (towards < 0 ? -1 : 1) / size;
-    for (double& part : normal) part *= factor;
-    const Lights::Parts parts = lights.parts(normal, std::abs(towards) / size, half);
-    const double lit = shadow_.light(voxel), diffuse = parts.ambient + lit * parts.key, highlight = lit * parts.highlight;
-    for (double& part : light) part = part * diffuse + highlight;
 }
 
 void Medium::march(const Ray& ray, double begin, double end, double shift, Gathered& gathered) const {
@@ -135,18 +116,22 @@ template <class T>
 void Medium::go_through(const Ray& ray, double begin, double end, double shift, const Lights* lights, Gathered& gathered) const {
     const Passage passage = passage_of(ray, begin, end);
     if (!(passage.begin < passage.end)) return;
-    const Vec3 to_eye = scale(ray.direction, -1), half = lights == nullptr ? Vec3{} : lights->half_way(to_eye);
     const Trilinear<T> values(*volume_, transfer_.scale());
+    const auto view = lights == nullptr ? Lights::GradientView{} : lights->gradient_view(to_voxel_, scale(ray.direction, -1));
     const auto shade_segment = [&](Vec3& light, double weight, double middle) {
         if (lights == nullptr || !(weight > kMin)) return;
         const Vec3 voxel = along(passage.origin, middle, passage.way);
         Vec3 fall;
-        values.fall(voxel, fall);
-        this->shade(fall, *lights, voxel, to_eye, half, light);
+        if (gradients_.empty())
+            values.fall(voxel, fall);
+        else
+            gradients_.fall(voxel, fall);
+        Lights::Parts parts;
+        Lights::parts(fall, view, parts);
+        const double lit = shadow_.light(voxel), diffuse = parts.ambient + lit * parts.key, highlight = lit * parts.highlight;
+        for (double& part : light) part = part * diffuse + highlight;
     };
-    walk(values, passage, shift, [&](std::span<const double> t, const std::array<float, kLanes + 1>& place) {
-        return absorb(t, place, transfer_, shade_segment, gathered);
-    });
+    walk(values, passage, shift, [&](const SegmentEnds& ends) { return absorb(ends, transfer_, shade_segment, gathered); });
 }
 
 template <class T, class Take>
@@ -157,8 +142,8 @@ void Medium::walk(const Trilinear<T>& values, const Passage& passage, double shi
     // place is known unless a leap ends there.
     std::int64_t segment = -1;  // the one that ends at `done`
     double done = begin;
-    std::array<double, kLanes + 1> t;
-    std::array<float, kLanes + 1> place{};
+    SegmentEnds ends;
+    auto& [t, place, count] = ends;
     bool has_place = false;
     blocks_.walk(origin, way, begin, end, 1e-7 * step_, [&](double from, double to) {
         if (to <= done) return true;
@@ -167,11 +152,12 @@ void Medium::walk(const Trilinear<T>& values, const Passage& passage, double shi
             done = segments.end_of(segment), has_place = false;
         }
         while (done < to) {
-            const std::size_t known = has_place ? 1 : 0, count = kLanes - 1 + known;
+            const std::size_t known = has_place ? 1 : 0;
+            count = kLanes - 1 + known;
             t[0] = done;
             values.places(segments, segment + static_cast<std::int64_t>(known), std::span<double, kLanes>(t.data() + known, kLanes),
                           std::span<float, kLanes>(place.data() + known, kLanes));
-            if (!take(std::span<const double>(t).first(count + 1), place)) return false;
+            if (!take(ends)) return false;
             segment += static_cast<std::int64_t>(count);
             done = t[count], place[0] = place[count], has_place = true;
         }
@@ -183,8 +169,9 @@ void Medium::visit_matter(const Ray& ray, double begin, double end, double shift
                           const std::function<bool(const MatterSegment&)>& visit) const {
     const Passage passage = passage_of(ray, begin, end);
     if (!(passage.begin < passage.end)) return;
-    const auto take = [&](std::span<const double> t, const std::array<float, kLanes + 1>& place) {
-        for (std::size_t i = 0; i + 1 < t.size(); ++i) {
+    const auto take = [&](const SegmentEnds& ends) {
+        const auto& [t, place, count] = ends;
+        for (std::size_t i = 0; i < count; ++i) {
             const OpticalProperties matter = transfer_.mean(static_cast<double>(place[i]), static_cast<double>(place[i + 1]));
             if (matter.extinction > 0 && t[i] < t[i + 1] && !visit({t[i], t[i + 1], matter})) return false;
         }

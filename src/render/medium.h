@@ -6,6 +6,8 @@
 #include "isoatlas/render.h"
 #include "render/camera_rays.h"
 #include "render/empty_space.h"
+#include "render/footprint.h"
+#include "render/gradient_grid.h"
 #include "render/lights.h"
 #include "render/ray_surfaces.h"
 #include "render/shadow_grid.h"
@@ -36,6 +38,8 @@ public:
     void march(const Ray& ray, double begin, double end, double shift, Gathered& gathered) const;
     /// Calls visit(segment) for every segment with matter between t = begin and end, front to back, until it returns false.
     void visit_matter(const Ray& ray, double begin, double end, double shift, const std::function<bool(const MatterSegment&)>& visit) const;
+    /// Pixels with matter somewhere along their rays, and some around them.
+    [[nodiscard]] Footprint footprint(const CameraRays& camera) const;
     [[nodiscard]] double step() const { return step_; }  ///< length of a segment, in the frame
     /// Visibility of the key light from a point of the frame; 1 without shadows.
     [[nodiscard]] double lit(const Vec3& point) const { return shadow_.light(voxel_of(point)); }
@@ -52,12 +56,10 @@ private:
     void go(const Ray& ray, double begin, double end, double shift, const Lights* lights, Gathered& gathered) const;
     template <class T>
     void go_through(const Ray& ray, double begin, double end, double shift, const Lights* lights, Gathered& gathered) const;
-    /// Calls take(t, place) with the ends of segments, see absorb(), until it returns false.
+    /// Calls take(ends of segments) until it returns false.
     template <class T, class Take>
     void walk(const Trilinear<T>& values, const Passage& passage, double shift, const Take& take) const;
     [[nodiscard]] Passage passage_of(const Ray& ray, double begin, double end) const;
-    /// Turns the colour of matter with some differences of samples (Trilinear::fall) into its light. half: lights.half_way(to_eye).
-    void shade(const Vec3& fall, const Lights& lights, const Vec3& voxel, const Vec3& to_eye, const Vec3& half, Vec3& light) const;
     [[nodiscard]] ShadowGrid shadows(const RaySurfaces& solid, int threads) const;
 
     const Volume* volume_;
@@ -68,6 +70,7 @@ private:
     Mat3 to_voxel_{};  ///< rows: physical difference to sample difference
     double step_ = 1;  ///< in the frame
     ShadowGrid shadow_;
+    GradientGrid gradients_;  ///< none: differences of samples
 };
 
 }  // namespace isoatlas

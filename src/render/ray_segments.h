@@ -3,11 +3,14 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
 
 #include "isoatlas/volume.h"
 
 namespace isoatlas {
+
+inline constexpr std::size_t kLanes = 8;  ///< segments evaluated at a time
 
 struct RaySegments {
     Vec3 origin, way;    ///< of the ray, in samples
@@ -17,6 +20,13 @@ struct RaySegments {
         return std::clamp((first + static_cast<double>(segment + 1)) * step, begin, end);
     }
     [[nodiscard]] std::int64_t number_at(double t) const { return static_cast<std::int64_t>(t / step - first); }
+};
+
+/// Begin of the first of some segments, and the end of each: t, and the position of its value in the table of a transfer function.
+struct SegmentEnds {
+    std::array<double, kLanes + 1> t;
+    std::array<float, kLanes + 1> place{};
+    std::size_t count = 0;  ///< segments
 };
 
 }  // namespace isoatlas

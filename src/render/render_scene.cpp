@@ -78,12 +78,17 @@ public:
         const std::int64_t x0 = tile % across * kTile, y0 = tile / across * kTile;
         Workspace work;
         for (std::int64_t y = y0; y < std::min(film.height, y0 + kTile); ++y) {
-            for (std::int64_t x = x0; x < std::min(film.width, x0 + kTile); ++x) film.pixels[x + film.width * y] = paint(x, y, work);
+            for (std::int64_t x = x0; x < std::min(film.width, x0 + kTile); ++x) {
+                if (!tracer_.shows(x, y)) continue;
+                const FilmSum sum = paint(x, y, work);
+                film.pixels[x + film.width * y] = sum.mean();
+                if (!film.surfaces.empty()) film.surfaces[x + film.width * y] = sum.mean_surface();
+            }
         }
     }
 
 private:
-    [[nodiscard]] FilmPixel paint(std::int64_t x, std::int64_t y, Workspace& work) const {
+    [[nodiscard]] FilmSum paint(std::int64_t x, std::int64_t y, Workspace& work) const {
         const std::uint32_t seed = hash(static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y));
         FilmSum sum;
         for (int s = 0; s < options_.samples; ++s) {
@@ -92,7 +97,7 @@ private:
             ray.origin = frame_.inside(ray.origin);
             sum.add(tracer_.trace(ray, seed, static_cast<std::uint32_t>(s), work));
         }
-        return sum.mean();
+        return sum;
     }
 
     const Tracer& tracer_;
@@ -121,7 +126,7 @@ Image render_scene(const Scene& scene, const Camera& camera, const RenderOptions
     const CameraRays rays(camera, options.width, options.height);
     report(context, kDrawPhases["prepare surfaces"], 0);
     const Tracer tracer(scene, frame, rays, options.shading, context.threads);
-    Film film(options.width, options.height);
+    Film film(options.width, options.height, !scene.objects.empty());
     const Painter painter(tracer, camera, rays, frame, options);
     const auto tiles_of = [](std::int64_t pixels) { return (pixels + kTile - 1) / kTile; };
     const std::int64_t across = tiles_of(film.width), rows = tiles_of(film.height);

@@ -57,6 +57,7 @@ Tracer::Tracer(const Scene& scene, const Frame& frame, const CameraRays& camera,
     for (const SceneObject& object : scene.objects) albedo_.push_back(linear(object.colour));
     if (scene.volume.volume == nullptr) return;
     medium_.emplace(scene, frame, shading ? &lights_ : nullptr, opaque_, threads);
+    if (scene.objects.empty() && scene.slices.empty()) footprint_ = medium_->footprint(camera);
     if (scene.volume.optics != OpticalModel::absorption_emission)
         optics_.emplace(scene.volume, *medium_, lights_.to_key({0, 0}), opaque_, removed_);
 }

@@ -38,6 +38,9 @@ public:
     /// ray: in the frame. seed and sample: which random numbers.
     [[nodiscard]] Seen trace(const Ray& ray, std::uint32_t seed, std::uint32_t sample, Workspace& work) const;
 
+    /// False: rays through the pixel meet nothing.
+    [[nodiscard]] bool shows(std::int64_t x, std::int64_t y) const { return !footprint_ || footprint_->shows(x, y); }
+
 private:
     void add_sheets(const Ray& ray, double max, const Gap& gap, Workspace& work) const;
     void gather(const Ray& ray, double max, const Gap& gap, const RayNumbers& numbers, const std::vector<Layer>& layers, Seen& seen) const;
@@ -54,9 +57,10 @@ private:
     RaySlices slices_;
     Lights lights_;
     std::optional<Medium> medium_;
-    std::optional<Optics> optics_;  ///< none: the default model, which is that of the medium
-    std::vector<Vec3> albedo_;      ///< of every object
-    double lift_;                   ///< offset of rays to lights above a surface
+    std::optional<Footprint> footprint_;  ///< of the medium, if there is nothing else
+    std::optional<Optics> optics_;        ///< none: the default model, which is that of the medium
+    std::vector<Vec3> albedo_;            ///< of every object
+    double lift_;                         ///< offset of rays to lights above a surface
 };
 
 }  // namespace isoatlas

@@ -1,10 +1,12 @@
 #include "render/transfer.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <span>
 #include <string>
 
+#include "base/target_clones.h"
 #include "render/colours.h"
 
 namespace isoatlas {
@@ -66,6 +68,14 @@ private:
     std::array<double, 4> sum_{};
 };
 
+using Doubles = double __attribute__((vector_size(32)));
+
+/// 1 - exp(-x) for x >= 0, to 1e-8.
+[[gnu::always_inline]] inline double swallowed(double x) {
+    if (x > 0.125) return 1 - std::exp(-x);
+    return x * (1 - x * (1.0 / 2) * (1 - x * (1.0 / 3) * (1 - x * (1.0 / 4) * (1 - x * (1.0 / 5)))));
+}
+
 }  // namespace
 
 double extinction_of(double opacity, double length) { return -std::log1p(-opacity) / length; }
@@ -87,6 +97,51 @@ void Transfer::add(const TransferCurve& curve, double length_unit) {
         const Sums sum = integral.to(low_ + static_cast<double>(i) / places_per_value_);
         for (std::size_t c = 0; c < 4; ++c) sums_[i][c] += sum[c] - first[c];
     }
+}
+
+[[gnu::always_inline]] inline void Transfer::mean_between(double low, double high, Sums& mean) const {
+    // Closer than one table entry, differences of the sums would be lost in rounding: then averages over neighbouring entries.
+    if (high - low < 1e-3) {
+        low = std::max(0.0, low - kWidening);
+        high = std::min(high + kWidening, static_cast<double>(kPlaces));
+    }
+    const auto i = std::min(static_cast<std::int64_t>(low), kPlaces - 1), j = std::min(static_cast<std::int64_t>(high), kPlaces - 1);
+    const double f = low - static_cast<double>(i), g = high - static_cast<double>(j), part = places_per_value_ / (high - low);
+    const auto from = __builtin_bit_cast(Doubles, sums_[i]), from_next = __builtin_bit_cast(Doubles, sums_[i + 1]),
+               to = __builtin_bit_cast(Doubles, sums_[j]), to_next = __builtin_bit_cast(Doubles, sums_[j + 1]);
+    const Doubles found = part * ((to + g * (to_next - to)) - (from + f * (from_next - from)));
+    __builtin_memcpy(mean.data(), &found, sizeof found);
+}
+
+OpticalProperties Transfer::mean(double a, double b) const {
+    const double low = std::min(a, b), high = std::max(a, b);
+    if (high < static_cast<double>(next_visible_[static_cast<std::int64_t>(low)])) return {};
+    Sums mean;
+    mean_between(low, high, mean);
+    return {mean[0], {mean[1], mean[2], mean[3]}};
+}
+
+ISOATLAS_TARGET_CLONES unsigned Transfer::lights(const SegmentEnds& ends, std::span<SegmentLight, kLanes> found) const {
+    const auto& [t, places, count] = ends;
+    unsigned bits = 0;
+    for (std::size_t i = 0; i < kLanes; ++i) {
+        const float low = std::min(places[i], places[i + 1]), high = std::max(places[i], places[i + 1]);
+        bits |= (high < static_cast<float>(next_visible_[static_cast<std::int32_t>(low)]) ? 0U : 1U) << i;
+    }
+    bits &= (1U << count) - 1;
+    for (unsigned left = bits; left != 0; left &= left - 1) {
+        const auto i = static_cast<std::size_t>(std::countr_zero(left));
+        const auto a = static_cast<double>(places[i]), b = static_cast<double>(places[i + 1]);
+        Sums mean;
+        mean_between(std::min(a, b), std::max(a, b), mean);
+        if (!(mean[0] > 0)) {
+            bits &= ~(1U << i);
+            continue;
+        }
+        const double per_extinction = 1 / mean[0];
+        found[i] = {swallowed(mean[0] * (t[i + 1] - t[i])), {mean[1] * per_extinction, mean[2] * per_extinction, mean[3] * per_extinction}};
+    }
+    return bits;
 }
 
 std::vector<std::array<double, 2>> visible_values(const SceneVolume& volume) {

@@ -4,9 +4,11 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "isoatlas/render.h"
+#include "render/ray_segments.h"
 #include "render/vectors.h"
 
 namespace isoatlas {
@@ -15,6 +17,12 @@ namespace isoatlas {
 struct OpticalProperties {
     double extinction = 0;
     Vec3 glow{};  ///< extinction times colour
+};
+
+/// What a ray segment does to light by itself.
+struct SegmentLight {
+    double opacity = 0;
+    Vec3 colour{};
 };
 
 class Transfer {
@@ -33,21 +41,9 @@ public:
     [[nodiscard]] Scale scale() const { return {low_, places_per_value_, static_cast<double>(kPlaces)}; }
     /// Mean between two table positions, for a value that changes linearly between them (Engel, Kraus, Ertl, 2001, without attenuation
     /// within the segment). Exact to 1/4096 of the range.
-    [[nodiscard]] OpticalProperties mean(double a, double b) const {
-        const double low = std::min(a, b), high = std::max(a, b);
-        if (high < static_cast<double>(next_visible_[static_cast<std::int64_t>(low)])) return {};
-        return mean_between(low, high);
-    }
-    /// Bit i: is the mean between places i and i + 1 above 0? Of table positions.
-    template <std::size_t kCount>
-    [[nodiscard]] unsigned visible_between(const std::array<float, kCount>& places) const {
-        unsigned bits = 0;
-        for (std::size_t i = 0; i + 1 < kCount; ++i) {
-            const float low = std::min(places[i], places[i + 1]), high = std::max(places[i], places[i + 1]);
-            bits |= (high < static_cast<float>(next_visible_[static_cast<std::int32_t>(low)]) ? 0U : 1U) << i;
-        }
-        return bits;
-    }
+    [[nodiscard]] OpticalProperties mean(double a, double b) const;
+    /// What segments do, from mean() and their lengths. Bit i: segment i is visible, and found[i] is set.
+    [[nodiscard]] unsigned lights(const SegmentEnds& ends, std::span<SegmentLight, kLanes> found) const;
     /// Is any mean between values from low to high above 0?
     [[nodiscard]] bool visible(double low, double high) const {
         const auto from = static_cast<std::int64_t>(std::max(0.0, place(low) - kWidening));
@@ -58,21 +54,8 @@ public:
 private:
     static constexpr double kWidening = 0.5;  ///< table positions averaged for values too close to each other
     using Sums = std::array<double, 4>;       ///< extinction, glow
+    void mean_between(double low, double high, Sums& mean) const;
     void add(const TransferCurve& curve, double length_unit);
-    [[nodiscard]] OpticalProperties mean_between(double low, double high) const {
-        // Closer than one table entry, differences of the sums would be lost in rounding: then averages over neighbouring entries.
-        if (high - low < 1e-3) {
-            low = std::max(0.0, low - kWidening);
-            high = std::min(high + kWidening, static_cast<double>(kPlaces));
-        }
-        const auto i = std::min(static_cast<std::int64_t>(low), kPlaces - 1), j = std::min(static_cast<std::int64_t>(high), kPlaces - 1);
-        const double f = low - static_cast<double>(i), g = high - static_cast<double>(j), part = places_per_value_ / (high - low);
-        const Sums &from = sums_[i], &from_next = sums_[i + 1], &to = sums_[j], &to_next = sums_[j + 1];
-        Sums mean;
-        for (int c = 0; c < 4; ++c) mean[c] = part * ((to[c] + g * (to_next[c] - to[c])) - (from[c] + f * (from_next[c] - from[c])));
-        return {mean[0], {mean[1], mean[2], mean[3]}};
-    }
-
     double low_, places_per_value_;
     std::vector<std::uint16_t> next_visible_;  ///< per position: the first one at or after it with visible values before the next one
     std::vector<Sums> sums_;                   ///< integrals from the lowest value to each of evenly spaced ones

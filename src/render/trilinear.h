@@ -11,8 +11,6 @@
 
 namespace isoatlas {
 
-inline constexpr std::size_t kLanes = 8;
-
 /// The samples of a volume, and what a place among them is computed with.
 template <class T>
 struct PlacedSamples {

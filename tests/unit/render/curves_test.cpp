@@ -93,6 +93,28 @@ TEST(Curves, OneColourForAllPointsIsTheColourOfTheCurve) {
     }
 }
 
+/// Places of segments: among them equal ones, and ones closer than a table entry.
+RC_GTEST_PROP(Curves, SegmentsSwallowWhatTheirMeanSays, ()) {
+    std::vector<OpacityTent> tents(static_cast<std::size_t>(*rc::gen::inRange(1, 4)));
+    for (OpacityTent& tent : tents) tent = any_tent();
+    const Transfer transfer({.tents = tents}, 1, kRange);
+    SegmentEnds ends{.t = {}, .count = static_cast<std::size_t>(*rc::gen::inRange(1, 9))};
+    for (std::size_t i = 0; i <= kLanes; ++i) {
+        ends.t[i] = i == 0 ? 0 : ends.t[i - 1] + *rc::gen::inRange(0, 40) * 0.05;
+        ends.place[i] = static_cast<float>(*rc::gen::inRange(0, 1 + static_cast<int>(Transfer::kPlaces) * 4)) / 4;
+        if (i > 0 && *rc::gen::inRange(0, 4) == 0) ends.place[i] = ends.place[i - 1];
+    }
+    std::array<SegmentLight, kLanes> lights;
+    const unsigned visible = transfer.lights(ends, lights);
+    for (std::size_t i = 0; i < kLanes; ++i) {
+        const OpticalProperties mean = transfer.mean(static_cast<double>(ends.place[i]), static_cast<double>(ends.place[i + 1]));
+        RC_ASSERT((visible >> i & 1) == (i < ends.count && mean.extinction > 0 ? 1U : 0U));
+        if ((visible >> i & 1) == 0) continue;
+        RC_ASSERT(std::abs(lights[i].opacity + std::expm1(-mean.extinction * (ends.t[i + 1] - ends.t[i]))) < 1e-7);
+        for (int c = 0; c < 3; ++c) RC_ASSERT(std::abs(lights[i].colour[c] * mean.extinction - mean.glow[c]) < 1e-9);
+    }
+}
+
 TEST(Curves, ColoursAreOneForEachPointOrNone) {
     const TransferCurve curve{.points = {{20, 0.1}, {60, 0.5}}, .colours = {{1, 0, 0}}};
     EXPECT_THROW(Transfer({.curves = {curve}}, 1, kRange), Error);

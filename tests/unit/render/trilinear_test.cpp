@@ -8,6 +8,8 @@
 #include <cmath>
 #include <random>
 
+#include "render/gradient_grid.h"
+
 namespace isoatlas {
 namespace {
 
@@ -67,6 +69,17 @@ TYPED_TEST(TrilinearOf, FallsAreDifferencesOfValues) {
             const double expected = (sum_of_tents<TypeParam>(volume, low) - sum_of_tents<TypeParam>(volume, high)) / 2;
             ASSERT_NEAR(fall[a], expected, kTolerance) << n << ' ' << a;
         }
+    }
+}
+
+TYPED_TEST(TrilinearOf, GradientsAtSamplesGiveTheSameFalls) {
+    for (int n = 0; n < 1000; ++n) {
+        const Volume volume = this->some_volume();
+        const Vec3 place = this->some_place(volume);
+        Vec3 fall, between;
+        Trilinear<TypeParam>(volume, kScale).fall(place, fall);
+        GradientGrid(volume, 1).fall(place, between);
+        for (int a = 0; a < 3; ++a) ASSERT_NEAR(fall[a], between[a], kTolerance) << n << ' ' << a;
     }
 }
 
