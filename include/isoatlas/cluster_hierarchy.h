@@ -28,6 +28,8 @@ struct ClusterGroup {
     std::vector<std::int64_t> made_of;  ///< the groups that made its clusters; ascending
 };
 
+/// Clusters come in the order of the distance of what replaces them, the greatest first, triangles as their clusters, points as they are
+/// used: coarse surfaces need the beginnings of the arrays.
 struct ClusterHierarchy {
     Surface surface;  ///< the triangles of all clusters and their points; no surface by itself
     std::vector<Cluster> clusters;

@@ -47,6 +47,7 @@
 #include "isoatlas/label_page.h"
 #include "isoatlas/labels.h"
 #include "isoatlas/level_of_detail.h"
+#include "isoatlas/levels.h"
 #include "isoatlas/locate.h"
 #include "isoatlas/measures.h"
 #include "isoatlas/method_info.h"

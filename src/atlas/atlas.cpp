@@ -35,6 +35,14 @@ std::int64_t whole_voxel(const StoredWindow& window, std::int64_t voxel) {
     return window.window.whole.index(window.info.extent.voxel(voxel) + window.window.origin);
 }
 
+/// A store, and not the levels of detail of one.
+const Container& require_samples(const Container& store) {
+    if (!store.contents().has_array("surfaces/tau")) return store;
+    throw Error(ErrorKind::input, {.file = store.path(),
+                                   .what = "these are levels of detail of surfaces, not a store",
+                                   .next = "open the store beside it: the same name without .lod"});
+}
+
 }  // namespace
 
 /// Queries on the trees alone.
@@ -55,7 +63,7 @@ struct Atlas::Data {
     IoCounters reads;
 
     Data(const std::string& path, const AtlasOptions& options)
-        : store(path, options.polarity, options.corrections), samples(stored_samples(store, options.cache_bytes)) {}
+        : store(path, options.polarity, options.corrections), samples(stored_samples(require_samples(store), options.cache_bytes)) {}
 
     [[nodiscard]] std::shared_ptr<const AtlasTrees> shared_trees() const {
         return trees.get([this] { return std::make_shared<const AtlasTrees>(analysis_of(store, {})); });

@@ -36,9 +36,9 @@ constexpr const char* kOtherFile = "rename or remove it, or build to another fil
                                       .reason = Reason::build_folder_taken});
 }
 
-/// Names of the phases of either polarity, and of the store that is lent between them (atlas/build.cpp).
+/// Names of the phases of either polarity, of the store that is lent between them (atlas/build.cpp), and of surfaces (levels/levels.cpp).
 bool is_phase(std::string_view name) {
-    if (name == "high-values") return true;
+    if (name == "high-values" || name.starts_with("surface-")) return true;
     if (name.starts_with("low-")) name.remove_prefix(4);
     return name == "trees" || name == "zones";
 }

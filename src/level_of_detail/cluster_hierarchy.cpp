@@ -14,6 +14,7 @@
 #include "isoatlas/environment.h"
 #include "isoatlas/error.h"
 #include "level_of_detail/cluster_groups.h"
+#include "level_of_detail/cluster_order.h"
 #include "level_of_detail/simplify_group.h"
 
 namespace isoatlas {
@@ -190,6 +191,7 @@ ClusterHierarchy make_clusters(const Surface& surface, const Geometry& geometry,
     if (surface.triangles.empty()) return hierarchy;
     const SurfaceFrame frame(surface, geometry, extent, options.unit);
     HierarchyMaker(hierarchy, frame, options, context).run();
+    order_by_distance(hierarchy);
     return hierarchy;
 }
 

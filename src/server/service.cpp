@@ -16,6 +16,7 @@
 #include "server/answers.h"
 #include "server/branch_answers.h"
 #include "server/download.h"
+#include "server/fewer_triangles.h"
 #include "server/object_points.h"
 #include "server/sample_answers.h"
 #include "server/secret.h"
@@ -25,17 +26,10 @@
 namespace isoatlas {
 namespace {
 
-constexpr std::int64_t kMaxListed = 100000, kMaxTriangles = 100'000'000, kMaxFrames = 16, kMaxBranches = std::int64_t{1} << 40;
+constexpr std::int64_t kMaxListed = 100000, kMaxFrames = 16, kMaxBranches = std::int64_t{1} << 40;
 constexpr int kAtOnce = 2;  ///< responses at a time
 constexpr std::int64_t kMaxPointDivisions = 8;
-constexpr std::int64_t kFirstTriangles = 20'000;                ///< max of the first request of a page (web/src/viewer/api/surfaces.ts)
-constexpr std::int64_t kTriangleBytes = 128, kLabelBytes = 24;  ///< bytes while a response is made: per triangle, per voxel
-constexpr double kStepsOfVoxel = 64;                            ///< steps of positions per voxel
-
-/// The entry that every page shows first; null: none, or a cavity.
-const NamedEntry* first_of(const StoreCatalogue& known) {
-    return known.entries.empty() || known.entries.front().is_cavity ? nullptr : &known.entries.front();
-}
+constexpr std::int64_t kLabelBytes = 24;  ///< of a voxel while labels are made
 
 int status_of(ErrorKind kind) {
     switch (kind) {
@@ -180,28 +174,6 @@ const StoreCatalogue& Service::known(const Context& context) {
     return known_.get(context, [sides = store_state_.sides()](const Context& shared) { return load_catalogue(sides, shared); });
 }
 
-void Service::prepare(const Context& context) {
-    Context own = context_;
-    own.cancelled = [&] { return ended_ || (context.cancelled && context.cancelled()); };
-    const NamedEntry* first = first_of(known(own));
-    const StoreSides sides = store_state_.sides();
-    if (first == nullptr || sides.main.info().extent.rank != 3) return;
-    const Atlas& atlas = sides.of(first->polarity);
-    SurfaceOptions options;
-    options.ids = false;
-    options.objects = {first->id};
-    (void)first_.get(own,
-                     [&](const Context& shared) { return wire(extract(atlas, first->tau, options, shared), kFirstTriangles, shared); });
-}
-
-bool Service::is_first(const Atlas& atlas, double tau, const SurfaceOptions& options, std::int64_t max) const {
-    const StoreCatalogue* known = known_.there();
-    const NamedEntry* first = known == nullptr ? nullptr : first_of(*known);
-    if (first == nullptr || max != kFirstTriangles || first->polarity != polarity_of(atlas.info())) return false;
-    const bool is_alone = options.objects == std::vector{first->id} && options.contours.empty() && options.shell == ShellChoice::all;
-    return is_alone && tau == first->tau && !options.ids;
-}
-
 Response Service::events_answer(const Request& request) {
     QueryParameters(request.words).reject_unknown();
     Response answer{200, "text/event-stream"};
@@ -303,9 +275,11 @@ Response Service::surface_answer(const Request& request) {
     const std::optional<std::string> shell = words.choice("shell", {"outer", "inner"});
     if (shell) options.shell = *shell == "inner" ? ShellChoice::inner : ShellChoice::outer;
     const std::optional<std::string> format = words.choice("format", {"ply", "stl", "obj", "vtp", "glb", "vtkhdf"});
+    std::optional<FewerTriangles> simplified;
+    if (format) simplified.emplace(words);
     const std::optional<std::int64_t> divisions = format ? std::nullopt : words.whole("points", 1, kMaxPointDivisions);
     options.ids = format.has_value();
-    const std::int64_t max = words.whole("max", 1, kMaxTriangles).value_or(kMaxTriangles);
+    const std::int64_t max = words.whole("max", 1, kMaxShownTriangles).value_or(kMaxShownTriangles);
     const std::string unit = unit_of_lengths(words, atlas.info().geometry);
     words.reject_unknown();
 
@@ -313,16 +287,18 @@ Response Service::surface_answer(const Request& request) {
     const Context context = context_of(*job);
     const double stored = stored_tau(atlas, tau);
     if (format) {
-        Surface surface = extract(atlas, stored, options, context);
+        options.max_triangles = simplified->most_of(max_triangles());
+        Surface surface = atlas.extract(stored, options, context);
+        simplified->apply(surface, atlas.info(), context);
         surface.unit = unit;
         Download download(*format, context);
         (void)write_surface(download, surface);
-        return file_answer(download.take());
+        return simplified->told(file_answer(download.take()));
     }
     const auto make = [&](const Context& own) {
+        if (!divisions) return mesh_of(atlas, stored, options, max, own);
         const Surface surface = extract(atlas, stored, options, own);
-        return divisions ? wire(points_as_squares(atlas, surface, {static_cast<int>(*divisions), max_triangles(), memory_}, own), 0, own)
-                         : wire(surface, max, own);
+        return wire(points_as_squares(atlas, surface, {static_cast<int>(*divisions), max_triangles(), memory_}, own), 0, own);
     };
     WireMesh mesh = !divisions && is_first(atlas, stored, options, max) ? first_.get(context, make) : make(context);
     Response answer = file_answer(std::move(mesh.bytes));
@@ -359,8 +335,7 @@ Response Service::several_answer(const Request& request) {
     if (has_labels) check_labels_fit();
     const NumberedSides sides = numbered_sides(request);
     const SeveralObjects all{sides, Naming::usable_names(sides.stores.main),
-                             sides.low != nullptr ? Naming::usable_names(*sides.stores.low) : std::vector<ObjectName>{},
-                             std::min(memory_ / kTriangleBytes, kMaxTriangles)};
+                             sides.low != nullptr ? Naming::usable_names(*sides.stores.low) : std::vector<ObjectName>{}, max_triangles()};
     const std::unique_ptr<JobQueue::Job> job = acquire_job(QueueClass::surfaces, request);
     return has_labels ? segmentation_answer(all, request, context_of(*job)) : surfaces_answer(all, request, context_of(*job));
 }
@@ -379,18 +354,6 @@ Context Service::context_of(JobQueue::Job& job) const {
         job.report_progress((progress.phase_index + progress.fraction) / progress.phase_count);
     };
     return context;
-}
-
-std::int64_t Service::max_triangles() const { return std::min(memory_ / kTriangleBytes, kMaxTriangles); }
-
-Surface Service::extract(const Atlas& atlas, double tau, SurfaceOptions options, const Context& context) const {
-    options.max_triangles = max_triangles();
-    return atlas.extract(tau, options, context);
-}
-
-WireMesh Service::wire(const Surface& surface, std::int64_t max, const Context& context) const {
-    const double spacing = std::ranges::min(store_state_.sides().main.info().geometry.spacing);
-    return wire_mesh(surface, {.step = spacing / kStepsOfVoxel, .max_triangles = max}, context);
 }
 
 }  // namespace isoatlas

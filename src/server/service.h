@@ -46,6 +46,7 @@
 #include "server/shared_once.h"
 #include "server/shared_scene.h"
 #include "server/store_catalogue.h"
+#include "server/store_levels.h"
 #include "server/store_state.h"
 #include "server/version_counter.h"
 
@@ -56,6 +57,8 @@ struct ServiceOptions {
     bool is_read_only = false;  ///< names cannot be changed
     SceneFile scene{};          ///< where pages begin; empty: nowhere
 };
+
+inline constexpr std::int64_t kMaxShownTriangles = 100'000'000;  ///< of a response
 
 class Service {
 public:
@@ -113,6 +116,8 @@ private:
     [[nodiscard]] std::int64_t max_triangles() const;
     [[nodiscard]] WireMesh wire(const Surface& surface, std::int64_t max, const Context& context) const;
     /// Is it the first surface of every page?
+    /// A surface of at most `max` triangles, if it can be reduced to so many: a level of detail where the store has it.
+    [[nodiscard]] WireMesh mesh_of(const Atlas& atlas, double tau, const SurfaceOptions& options, std::int64_t max, const Context& context);
     [[nodiscard]] bool is_first(const Atlas& atlas, double tau, const SurfaceOptions& options, std::int64_t max) const;
 
     const std::string token_;
@@ -126,6 +131,7 @@ private:
     Cards cards_;
     Naming naming_;
     SharedOnce<StoreCatalogue> known_;
+    StoreLevels levels_;
     SharedOnce<WireMesh> first_;  ///< coarse: some ten kilobytes
     std::atomic<bool> ended_ = false;
 };

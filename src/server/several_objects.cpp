@@ -13,6 +13,7 @@
 #include "isoatlas/segmentation.h"
 #include "isoatlas/surface.h"
 #include "server/download.h"
+#include "server/fewer_triangles.h"
 #include "server/query_parameters.h"
 #include "server/unit_word.h"
 
@@ -131,21 +132,24 @@ Response surfaces_answer(const SeveralObjects& all, const Request& request, cons
     const std::vector<NamedPart> parts = parts_of(all, words);
     const std::string format = words.choice("format", {"ply", "stl", "obj", "vtp", "glb", "vtkhdf"}).value_or("glb");
     const std::string unit = unit_of_lengths(words, all.sides.stores.main.info().geometry);
+    FewerTriangles simplified(words);
     words.reject_unknown();
     std::vector<NamedSurface> surfaces;
-    std::int64_t left = all.max_triangles;
+    std::int64_t left = simplified.most_of(all.max_triangles);
     for (const NamedPart& part : parts) {
         SurfaceOptions options;
         (part.is_contour ? options.contours : options.objects) = {part.voxel};
         options.max_triangles = std::max<std::int64_t>(left, 1);
-        Surface surface = all.sides.atlas(part.polarity).extract(*part.tau, options, context);
-        surface.unit = unit;
+        const Atlas& atlas = all.sides.atlas(part.polarity);
+        Surface surface = atlas.extract(*part.tau, options, context);
         left -= static_cast<std::int64_t>(surface.triangles.size());
+        simplified.apply(surface, atlas.info(), context);
+        surface.unit = unit;
         surfaces.push_back({std::move(surface), name_of(all, part), colour_of(part, surfaces.size())});
     }
     Download download(format, context);
     (void)write_surfaces(download, surfaces);
-    return file_answer(download.take());
+    return simplified.told(file_answer(download.take()));
 }
 
 Response segmentation_answer(const SeveralObjects& all, const Request& request, const Context& context) {

@@ -17,7 +17,7 @@ LIBRARIES = {
                   "level_of_detail"]),
     "formats": (["core"], ["formats/common", "formats/zarr", "formats/volume", "formats/mesh", "formats/tree"]),
     "remote": (["formats"], ["remote"]),
-    "store": (["formats"], ["codec", "store", "bricks", "census", "atlas"]),
+    "store": (["formats"], ["codec", "store", "bricks", "census", "atlas", "levels"]),
     "measures": (["store"], ["measures"]),
     "render": (["core"], ["image", "render"]),
     "methods": (["store", "render"], ["methods/search", "methods/disk", "methods/zones", "methods/surfaces", "methods/projection"]),
@@ -44,6 +44,7 @@ PUBLIC = {
     "remote": "remote",
     "census": "search_table",
     "atlas": "atlas build collection dump locate navigator",
+    "levels": "levels",
     "measures": "measures thickness",
     "image": "image",
     "render": "render",
@@ -66,7 +67,7 @@ DOORS = {
     r"tbb/.*|oneapi/.*": r"src/base/(parallel\.cpp|shared_vector\.h)",
     r"future|condition_variable|stop_token": r"(apps|tests|bench)/.*|src/base/memory_budgets\.h|src/base/workers\.h|src/server/(job_queue|version_counter|shared_once)\.h",
     r"thread": r"(apps|tests|bench)/.*|src/base/parallel.*\.cpp|src/base/cancel\.h|src/base/memory_(budgets\.h|limit\.cpp)|src/base/workers\.h",  # asks which thread it is on; watches memory, computes nothing
-    r"mutex": r"(apps|tests|bench|src/base)/.*|src/analysis/analysis_data\.h|src/zones/open_voxels\.h|src/methods/zones/filing_runs\.h|src/formats/common/hdf5_(handle\.h|layout\.cpp)|src/formats/volume/hdf5_(file|samples|storage|driver|object)\.cpp|src/bricks/(stored_samples|brick_cache|brick_histogram)\.(h|cpp)|src/atlas/atlas\.cpp|src/remote/.*|src/server/(job_queue|version_counter|store_state|event_stream|shared_once|access_control|naming|shared_scene|volume_services)\.h",  # std::once_flag: the index is made when first asked for
+    r"mutex": r"(apps|tests|bench|src/base)/.*|src/analysis/analysis_data\.h|src/zones/open_voxels\.h|src/methods/zones/filing_runs\.h|src/formats/common/hdf5_(handle\.h|layout\.cpp)|src/formats/volume/hdf5_(file|samples|storage|driver|object)\.cpp|src/bricks/(stored_samples|brick_cache|brick_histogram)\.(h|cpp)|src/atlas/atlas\.cpp|src/remote/.*|src/server/(job_queue|version_counter|store_state|store_levels|event_stream|shared_once|access_control|naming|shared_scene|volume_services)\.h",  # std::once_flag: the index is made when first asked for
     r"mpi\.h": r"(?!)",
     r"tiff.*\.h": r"src/formats/volume/.*tiff.*|tests/.*",
     r"png\.h": r"src/formats/volume/png_picture\.cpp",

@@ -1,4 +1,5 @@
 // First steps in the viewer, in a browser with `isoatlas view`. Skipped without Chromium or isoatlas.
+import { readFileSync } from "node:fs";
 import { join } from "node:path";
 import { afterAll, beforeAll, describe, expect, it } from "vitest";
 import { canServe, meshes, Served, stableBox } from "./viewer_harness";
@@ -113,6 +114,24 @@ describe.skipIf(!canServe)("the viewer", () => {
     const [download] = await Promise.all([tab.waitForEvent("download"), tab.getByRole("button", { name: "Save the surface" }).click()]);
     await download.saveAs(join(served.folder, "saved.ply"));
     expect(isoatlas("verify", "saved.ply")).toContain("all 8 guarantees hold");
+    await tab.close();
+  });
+
+  it("saves a surface with fewer triangles, near the exact one", async () => {
+    const { tab } = await open();
+    await tab.keyboard.press("s");
+    await tab.getByRole("combobox", { name: "format of the surface" }).selectOption("ply");
+    const save = async (name: string): Promise<number> => {
+      const [download] = await Promise.all([tab.waitForEvent("download"), tab.getByRole("button", { name: "Save the surface" }).click()]);
+      await download.saveAs(join(served.folder, name));
+      expect(isoatlas("verify", name)).toContain("all 8 guarantees hold");
+      return Number(/element face (\d+)/.exec(readFileSync(join(served.folder, name), "latin1"))?.[1]);
+    };
+    const all = await save("all.ply");
+    await tab.getByRole("combobox", { name: "triangles of the surface" }).selectOption("0.5");
+    const fewer = await save("fewer.ply");
+    expect(fewer).toBeLessThan(all / 4);
+    await tab.getByText(`${fewer} triangles within 0.`).first().waitFor();
     await tab.close();
   });
 

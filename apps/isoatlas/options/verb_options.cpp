@@ -251,6 +251,14 @@ void verify_options(CLI::App& app, Arguments& arguments, Typed& typed) {
     add(error->check(in_range(1e-300, 1e300))->type_name("LENGTH")->excludes(voxels));
 }
 
+void levels_options(CLI::App& app, Arguments& arguments, Typed& typed) {
+    add_objects(app, typed, "These objects and cavities, each at its isovalue");
+    add_number(app, "--top", arguments.top, "The first N objects of the table, each at its best isovalue (8)")
+        ->check(in_range(1, 1000))
+        ->type_name("N");
+    app.add_option("-o,--output", arguments.output, "The file (STORE.lod)")->type_name("FILE");
+}
+
 }  // namespace
 
 void add_talking(CLI::App& app, Arguments& arguments) {
@@ -336,6 +344,7 @@ void add_options_of(const std::string& verb, CLI::App& app, Arguments& arguments
         {"build", build_options},     {"atlas", atlas_options},     {"view", view_options},         {"ask", ask_options},
         {"serve", serve_options},     {"handles", handles_options}, {"spectrum", spectrum_options}, {"convert", convert_options},
         {"phantom", phantom_options}, {"verify", verify_options},   {"name", name_options},         {"compare", compare_options},
+        {"levels", levels_options},
     };
     if (const auto found = list.find(verb); found != list.end()) found->second(app, arguments, typed);
 }

@@ -114,6 +114,13 @@ const std::vector<Verb> kVerbs{
      {"isoatlas build scan.nii.gz -o scan.atlas", "isoatlas build scan.nii.gz -o smooth.atlas --gaussian 1.5",
       "isoatlas build cells.ome.zarr --all -o cells.atlases", "isoatlas build scan.nii.gz -o scan.atlas --json"},
      run_build},
+    {"levels",
+     "STORE",
+     "Make levels of detail of objects of a store, beside it: surfaces with fewer triangles and the same topology, also for viewers "
+     "elsewhere.",
+     {"isoatlas levels scan.atlas", "isoatlas levels scan.atlas --top 20", "isoatlas levels scan.atlas --object 2 --object 5@1367",
+      "isoatlas levels scan.atlas --json"},
+     run_levels},
     {"convert",
      "VOLUME",
      "Write the samples of a volume or of a store as a volume file.",
@@ -168,7 +175,7 @@ const std::vector<Verb> kVerbs{
 /// Of the help.
 const std::vector<VerbGroup> kGroups{
     {"Explore", {"atlas", "view", "info", "objects", "measure", "spectrum", "tree", "handles", "name"}},
-    {"Export", {"extract", "label", "render", "animate", "convert", "build"}},
+    {"Export", {"extract", "label", "render", "animate", "convert", "build", "levels"}},
     {"Check", {"verify"}},
     {"For experts", {"ask", "dump", "table131", "compare", "phantom", "completion", "manual"}},
 };

@@ -53,6 +53,7 @@ int run_spectrum(const Arguments& arguments, Terminal& terminal);
 int run_compare(const Arguments& arguments, Terminal& terminal);
 int run_table131(const Arguments& arguments, Terminal& terminal);
 int run_ask(const Arguments& arguments, Terminal& terminal);
+int run_levels(const Arguments& arguments, Terminal& terminal);
 int run_dump(const Arguments& arguments, Terminal& terminal);
 int run_verify(const Arguments& arguments, Terminal& terminal);
 int run_completion(const Arguments& arguments, Terminal& terminal);

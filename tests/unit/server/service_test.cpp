@@ -110,6 +110,17 @@ TEST_F(ServiceTest, CardsAreDrawnOnce) {
     }
 }
 
+TEST_F(ServiceTest, SimplifiedFilesTellHowFarTheyAre) {
+    const std::multimap<std::string, std::string> words{{"tau", "0.5"}, {"format", "ply"}, {"simplify", "0.25"}};
+    const Response answer = ask("/api/surface", words);
+    ASSERT_EQ(answer.status, 200) << answer.bytes;
+    const SimplifiedSurface own =
+        simplify_surface(atlas_->extract(0.5), atlas_->info().geometry, atlas_->info().extent, {.max_distance = 0.25});
+    EXPECT_EQ(answer.headers.at("X-Triangles"), std::to_string(own.surface.triangles.size()));
+    EXPECT_NEAR(std::stod(answer.headers.at("X-Distance")), own.distance, 1e-6);
+    EXPECT_EQ(ask("/api/surface", {{"tau", "0.5"}, {"format", "ply"}}).headers.contains("X-Distance"), false);
+}
+
 TEST_F(ServiceTest, RefusalsSayWhy) {
     struct Case {
         std::string path;
@@ -133,6 +144,9 @@ TEST_F(ServiceTest, RefusalsSayWhy) {
                                   {"/api/names", {{"x", "1"}}, 400},
                                   {"/api/name", {{"object", "1"}, {"name", "skull"}}, 400},
                                   {"/api/surface", {{"tau", "0.5"}, {"max", "0"}}, 400},
+                                  {"/api/surface", {{"tau", "0.5"}, {"simplify", "0.5"}}, 400},
+                                  {"/api/surface", {{"tau", "0.5"}, {"format", "stl"}, {"simplify", "0"}}, 400},
+                                  {"/api/surface", {{"tau", "0.5"}, {"format", "stl"}, {"simplify", "-1"}}, 400},
                                   {"/api/surface", {{"tau", "0.5"}, {"shell", "all"}}, 400},
                                   {"/api/preview", {{"tau", "0.5"}, {"x", "1"}}, 400},
                                   {"/api/preview", {{"tau", "0.5"}, {"object", "-1"}}, 400},

@@ -213,9 +213,10 @@ export class Api {
   }
 
   /** The file that `isoatlas extract` writes. unit: of lengths, where the file of the volume says none. */
-  async file(tau: number, target: SurfaceTarget, format: string, walls: ShellFilter, unit: string | null): Promise<Blob> {
-    const query = `tau=${tau}${parameters(target)}${shell(walls)}&format=${format}${inUnit(unit)}`;
-    return (await this.request(`/api/surface?${query}`, "file")).blob();
+  async file(tau: number, target: SurfaceTarget, format: string, walls: ShellFilter, how: FileOptions): Promise<SavedFile> {
+    const query = `tau=${tau}${parameters(target)}${shell(walls)}&format=${format}${inUnit(how.unit)}`;
+    const simplify = how.within === null ? "" : `&simplify=${how.within}`;
+    return savedFile(await this.request(`/api/surface?${query}${simplify}`, "file"));
   }
 
   /** The file that `isoatlas label` writes: of one object, or of all. */
@@ -225,11 +226,17 @@ export class Api {
   }
 
   /** One file of several objects and contours, such as "2@1367", "v81275@40", "c1@20": "surfaces" or "segmentation". */
-  async several(kind: SeveralKind, objects: string[], contours: string[], format: string, unit: string | null): Promise<Blob> {
-    const words = { object: objects.join(","), contour: contours.join(","), format, unit: unit ?? "" };
+  async several(kind: SeveralKind, objects: string[], contours: string[], format: string, how: FileOptions): Promise<SavedFile> {
+    const words = {
+      object: objects.join(","),
+      contour: contours.join(","),
+      format,
+      unit: how.unit ?? "",
+      simplify: how.within === null ? "" : String(how.within),
+    };
     const given = Object.entries(words).filter(([, word]) => word !== "");
     const query = given.map(([name, word]) => `${name}=${encodeURIComponent(word)}`).join("&");
-    return (await this.request(`/api/${kind}?${query}`, "file")).blob();
+    return savedFile(await this.request(`/api/${kind}?${query}`, "file"));
   }
 
   /** Names of objects and cavities. */
@@ -294,6 +301,25 @@ interface ServerScene {
 /** crypto.randomUUID() is missing where the page around a frame has neither https nor a local address. */
 function randomName(): string {
   return Array.from(crypto.getRandomValues(new Uint8Array(16)), (byte) => byte.toString(16).padStart(2, "0")).join("");
+}
+
+/** unit: null: that of the volume. within: fewer triangles, at most so many voxels from the exact surface; null: the exact surface. */
+export interface FileOptions {
+  unit: string | null;
+  within: number | null;
+}
+
+/** simplified: of a surface with fewer triangles. */
+export interface SavedFile {
+  blob: Blob;
+  simplified?: { triangles: number; distance: number };
+}
+
+async function savedFile(response: Response): Promise<SavedFile> {
+  const blob = await response.blob();
+  const distance = response.headers.get("X-Distance");
+  if (distance === null) return { blob };
+  return { blob, simplified: { triangles: Number(response.headers.get("X-Triangles")), distance: Number(distance) } };
 }
 
 export type SeveralKind = "surfaces" | "segmentation";

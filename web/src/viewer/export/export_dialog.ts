@@ -58,6 +58,8 @@ export class ExportDialog {
     const surface = choice("format of the surface", SURFACES);
     const labels = choice("format of the labels", LABELS);
     const surfaces = choice("format of all surfaces", ["glb", ...SURFACES.filter((format) => format !== "glb")]);
+    const triangles = trianglesChoice("triangles of the surface");
+    const allTriangles = trianglesChoice("triangles of all surfaces");
     const segmentation = choice("format of all labels", SEGMENTATIONS);
     const file = html("input", { type: "file", accept: ".json,application/json", "aria-label": "scene file to load" });
     file.addEventListener("change", () => void this.load(file));
@@ -76,7 +78,8 @@ export class ExportDialog {
         html("p", {}, this.of),
         line(
           surface,
-          fromServer("Save the surface", () => exporter.surface(surface.value)),
+          triangles,
+          fromServer("Save the surface", () => exporter.surface(surface.value, within(triangles))),
         ),
         line(
           labels,
@@ -87,7 +90,8 @@ export class ExportDialog {
         "Everything shown, each at its isovalue",
         line(
           surfaces,
-          fromServer("Save all surfaces", () => exporter.everything("surfaces", surfaces.value)),
+          allTriangles,
+          fromServer("Save all surfaces", () => exporter.everything("surfaces", surfaces.value, within(allTriangles))),
         ),
         line(
           segmentation,
@@ -236,6 +240,19 @@ function choice(name: string, formats: readonly string[]): HTMLSelectElement {
     { "aria-label": name, autofocus: formats === SURFACES },
     ...formats.map((format) => html("option", { value: format }, format.toUpperCase())),
   );
+}
+
+/** All triangles, or fewer within so many voxels of the exact surface. */
+function trianglesChoice(name: string): HTMLSelectElement {
+  const fewer = [0.1, 0.25, 0.5, 1, 2].map((voxels) =>
+    html("option", { value: String(voxels) }, `fewer, within ${voxels} ${voxels === 1 ? "voxel" : "voxels"}`),
+  );
+  const title = "fewer triangles, with the topology of the exact surface";
+  return html("select", { "aria-label": name, title }, html("option", { value: "" }, "all triangles"), ...fewer);
+}
+
+function within(triangles: HTMLSelectElement): number | null {
+  return triangles.value === "" ? null : Number(triangles.value);
 }
 
 function numberBox(name: string, value: number): HTMLInputElement {

@@ -1,4 +1,5 @@
 // Exports to files and to the clipboard.
+import { plural, value } from "../../shared/format";
 import { isCavity, referenceOf } from "../../shared/names";
 import { entryOf } from "../../shared/page";
 import { DIVISIONS, POINTS } from "../state/points";
@@ -7,11 +8,16 @@ import { downloadBlob, selectedOf, type ViewerContext } from "../context/viewer_
 import { drawPicture, pngOf, type PictureOptions } from "./picture";
 import { renderCommand } from "./render_command";
 import type { Shown } from "../state/state";
+import type { SavedFile } from "../api/api";
 import { readScene, writeScene } from "./scene_file";
 import { EVERYTHING, polarityOfEntry, titleOf, targetOf } from "../api/entries";
 import { tableCsv } from "./table_csv";
 import { isDarkPage } from "../context/theme";
 import { declaredUnit, hasNoUnit } from "../../shared/units";
+
+function simplifiedWords({ triangles, distance }: { triangles: number; distance: number }): string {
+  return `; ${plural(triangles, "triangle")} within ${value(distance)} voxels of the exact surface, with the same topology`;
+}
 
 export const SURFACES = ["stl", "ply", "obj", "glb", "vtp"];
 export const LABELS = ["nrrd", "nii.gz", "nii", "tif"];
@@ -21,14 +27,14 @@ export const SEGMENTATIONS = ["seg.nrrd", ...LABELS];
 export class Exporter {
   constructor(private readonly context: ViewerContext) {}
 
-  /** The surface of the selected object. */
-  surface(format: string): Promise<void> {
+  /** The surface of the selected object. within: see FileOptions. */
+  surface(format: string, within: number | null = null): Promise<void> {
     const shown = selectedOf(this.context.history.now);
     if (!shown) return this.nothingSelected();
     const { api, page } = this.context;
-    if (format === "glb" && shown.walls === "all" && shown.entry !== EVERYTHING) return this.named(shown);
+    if (format === "glb" && shown.walls === "all" && shown.entry !== EVERYTHING) return this.named(shown, within);
     return this.file(`${this.name}.${format}`, "writing the surface", () =>
-      api.file(shown.tau, targetOf(page, shown.entry), format, shown.walls, this.unit),
+      api.file(shown.tau, targetOf(page, shown.entry), format, shown.walls, { unit: this.unit, within }),
     );
   }
 
@@ -44,15 +50,17 @@ export class Exporter {
   }
 
   /** A .glb, whose node has the name and colour of the object. */
-  private named(shown: Shown): Promise<void> {
+  private named(shown: Shown, within: number | null): Promise<void> {
     const { api, page } = this.context;
     const words = [`${referenceOf(page, shown.entry)}@${shown.tau}`];
     const [objects, contours] = isCavity(page, shown.entry) ? [[], words] : [words, []];
-    return this.file(`${this.name}.glb`, "writing the surface", () => api.several("surfaces", objects, contours, "glb", this.unit));
+    return this.file(`${this.name}.glb`, "writing the surface", () =>
+      api.several("surfaces", objects, contours, "glb", { unit: this.unit, within }),
+    );
   }
 
   /** Every visible object at its isovalue, in one file: "surfaces" or "segmentation". */
-  everything(kind: "surfaces" | "segmentation", format: string): Promise<void> {
+  everything(kind: "surfaces" | "segmentation", format: string, within: number | null = null): Promise<void> {
     const { api, page, history } = this.context;
     const visible = history.now.shown.filter(({ visible, entry }) => visible && entry !== EVERYTHING);
     const words = (cavities: boolean): string[] =>
@@ -60,7 +68,7 @@ export class Exporter {
     if (visible.length === 0) return this.nothingSelected("show an object first; the whole isosurface has a file of its own");
     const name = `${page.volume.name}-${kind === "surfaces" ? "objects" : "labels"}.${format}`;
     return this.file(name, kind === "surfaces" ? "writing the surfaces" : "writing the labels", () =>
-      api.several(kind, words(false), words(true), format, this.unit),
+      api.several(kind, words(false), words(true), format, { unit: this.unit, within }),
     );
   }
 
@@ -138,11 +146,14 @@ export class Exporter {
     return Promise.resolve();
   }
 
-  private async file(name: string, meanwhile: string, make: () => Promise<Blob>): Promise<void> {
+  private async file(name: string, meanwhile: string, make: () => Promise<Blob | SavedFile>): Promise<void> {
     try {
       if (meanwhile) this.context.notify(meanwhile);
-      downloadBlob(await make(), name);
-      this.context.notify(`${name} saved${meanwhile === "" || meanwhile.includes("image") ? "" : this.unitWords}`);
+      const made = await make();
+      const { blob, simplified } = made instanceof Blob ? { blob: made } : made;
+      downloadBlob(blob, name);
+      const unit = meanwhile === "" || meanwhile.includes("image") ? "" : this.unitWords;
+      this.context.notify(`${name} saved${unit}${simplified ? simplifiedWords(simplified) : ""}`);
     } catch (error) {
       this.context.reportError(error);
     }

@@ -1,0 +1,71 @@
+// Levels of detail of the objects of a store, made once and kept beside it: STORE.lod.
+//
+// A file of levels holds cluster hierarchies (cluster_hierarchy.h) in the container of stores: checksums, parts that can be read alone,
+// also from a web server. docs/format.md describes it.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "isoatlas/atlas.h"
+#include "isoatlas/cluster_hierarchy.h"
+
+namespace isoatlas {
+
+/// A surface of a store: an object at an isovalue, or the wall of a cavity.
+struct LevelsKey {
+    std::int64_t voxel = -1;  ///< ObjectEntry::id, or a contour id as in Cut
+    double tau = 0;           ///< stored value
+    bool is_contour = false;
+    friend bool operator==(const LevelsKey&, const LevelsKey&) = default;
+};
+
+/// A surface whose levels a file holds.
+struct PreparedLevels {
+    LevelsKey key;
+    std::int64_t triangles = 0;  ///< of the exact surface
+    std::int64_t coarsest = 0;   ///< of the coarsest one
+    double distance = 0;         ///< of the coarsest one from the exact one, at most, in voxels
+};
+
+/// The file beside a store: STORE.lod; of low values: scan.low.atlas.lod beside scan.atlas, as beside scan.low.atlas.
+[[nodiscard]] std::string levels_path(const std::string& store, Polarity polarity = Polarity::high);
+
+/// Makes the levels of surfaces of a store, one after the other, each kept in the folder PATH.build as soon as it is finished, so that an
+/// interrupted call goes on where it ended; then writes the file: what it held before and the new ones. Returns what it holds. Of the same
+/// surfaces in the same order the same bytes, for any number of threads and interruptions. Throws Error: as Atlas::extract() and
+/// make_clusters(), input (the file is damaged, or of another store), resource, cancelled. Cost: some 150 us a triangle on one processor;
+/// memory: that of the largest surface, some 500 bytes a triangle.
+std::vector<PreparedLevels> make_levels(const Atlas& atlas, const std::string& path, std::span<const LevelsKey> surfaces,
+                                        const Context& context = {});
+
+/// An open file of levels. Reading is thread safe.
+class Levels {
+public:
+    /// atlas: of the store that they were made of, which may be read from somewhere else. Throws Error: input (missing, damaged, of another
+    /// store), unsupported (a later version). Cost: reads the tables of clusters, some bytes for a thousand triangles.
+    Levels(const std::string& path, const Atlas& atlas);
+    ~Levels();
+    Levels(Levels&&) noexcept;
+    Levels& operator=(Levels&&) noexcept;
+
+    [[nodiscard]] const std::vector<PreparedLevels>& surfaces() const;
+    /// Its place in surfaces(); -1: the file does not hold it.
+    [[nodiscard]] std::int64_t find(const LevelsKey& key) const;
+    /// The coarsest surface in which every group is at most so far from the exact one, in voxels; 0: the exact one. Throws Error{input} for
+    /// damage. Cost: reads what the surface needs, and what coarser ones do.
+    [[nodiscard]] SimplifiedSurface within(std::int64_t surface, double distance) const;
+    /// The nearest one of those with at most so many triangles; the coarsest, if it has more.
+    [[nodiscard]] SimplifiedSurface at_most(std::int64_t surface, std::int64_t triangles) const;
+    /// All levels. Throws Error{input} for damage.
+    [[nodiscard]] ClusterHierarchy hierarchy(std::int64_t surface) const;
+
+private:
+    struct Data;
+    std::unique_ptr<Data> data_;
+};
+
+}  // namespace isoatlas

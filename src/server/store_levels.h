@@ -1,0 +1,27 @@
+// Levels of detail beside the store of a viewer (isoatlas/levels.h).
+#pragma once
+
+#include <array>
+#include <mutex>
+#include <optional>
+
+#include "isoatlas/levels.h"
+
+namespace isoatlas {
+
+class StoreLevels {
+public:
+    /// The surface with at most so many triangles, or the coarsest one; nothing: there are no levels of it. Looks for the file once. Throws
+    /// Error{input} for a damaged file, or one of another store.
+    [[nodiscard]] std::optional<SimplifiedSurface> at_most(const Atlas& atlas, const SurfaceOptions& options, double tau,
+                                                           std::int64_t triangles);
+
+private:
+    struct Side {
+        std::once_flag looked;
+        std::optional<Levels> levels;
+    };
+    std::array<Side, 2> sides_;  ///< by polarity
+};
+
+}  // namespace isoatlas

@@ -1,0 +1,81 @@
+"""isoatlas levels: levels of detail beside a store, which viewers read instead of the samples."""
+import os
+
+from file_server import FileServer
+import harness
+from harness import CliTest
+from served import Viewer
+
+
+class Levels(CliTest):
+    phantoms = {"field.nrrd": ["random-field", "--size", "48"], "other.nrrd": ["torus-chain", "--size", "24"]}
+
+    @classmethod
+    def setUpClass(cls):
+        super().setUpClass()
+        for name in ("field", "other"):
+            done = cls.start(["build", f"{name}.nrrd", "-o", f"{name}.atlas"])
+            assert done.returncode == 0, done.stderr
+
+    def made(self, *options):
+        document = self.run_json("levels", "field.atlas", *options)
+        self.assert_schema(document, "levels")
+        return document["files"]
+
+    def test_what_is_made_is_listed(self):
+        self.assertEqual(self.made("--top", "1")[0]["file"], "field.atlas.lod")
+        found, = self.made("--object", "2", "--object", "1@0.3")
+        self.assertEqual(len(found["surfaces"]), 3)  # the first is kept
+        self.assertEqual(found["bytes"], (self.folder / "field.atlas.lod").stat().st_size)
+        for surface in found["surfaces"]:
+            options = ("--object", f"v{surface['voxel']}@{surface['tau']!r}")
+            exact = self.run_json("extract", "field.atlas", *options, "-o", "exact.ply")
+            self.assertEqual(surface["triangles"], exact["triangles"])
+            self.assertLess(surface["coarsest"], surface["triangles"])
+            self.assertGreater(surface["distance"], 0)
+        before = (self.folder / "field.atlas.lod").read_bytes()
+        self.assertEqual(self.made("--object", "2"), [found])
+        self.assertEqual((self.folder / "field.atlas.lod").read_bytes(), before)
+        self.assertIn("levels of 3 surfaces", self.run_ok("levels", "field.atlas", "--object", "2").stdout)
+
+    def test_refusals(self):
+        self.run_error(2, "levels", "field.nrrd", says="beside a store", next_says="isoatlas build")
+        self.run_ok("levels", "other.atlas", "--top", "1", "-o", "other.lod")
+        self.run_error(3, "levels", "field.atlas", "--top", "1", "-o", "other.lod", says="of another store")
+        self.run_error(3, "info", "other.lod", says="levels of detail of surfaces, not a store", next_says="without .lod")
+        self.run_error(6, "levels", "field.atlas", "--object", "9999")
+
+    def first_surface(self, store):
+        """Its answer, and its triangles."""
+        viewer = Viewer(self.folder, store, "--cache", "0", env={**os.environ, "XDG_CACHE_HOME": str(self.folder / "cache")})
+        try:
+            found = self.objects["objects"][0]
+            status, headers, body = viewer.ask(f"/api/surface?tau={found['best_tau']!r}&object=v{found['id']}&max=300")
+            self.assertEqual(status, 200, body)
+            return int(headers["X-Triangles"]), headers["X-Coarse"]
+        finally:
+            viewer.stop()
+
+    def test_viewers_elsewhere_read_levels_and_no_samples(self):
+        self.objects = self.run_json("objects", "field.atlas")
+        lod = self.folder / "field.atlas.lod"
+        lod.unlink(missing_ok=True)
+        with FileServer(self.folder) as server:
+            _, coarse = self.first_surface(f"{server.address}/field.atlas")
+            self.assertEqual(coarse, "1")
+            without = server.bytes
+        self.run_ok("levels", "field.atlas", "--top", "1")
+        with FileServer(self.folder) as server:
+            triangles, coarse = self.first_surface(f"{server.address}/field.atlas")
+            self.assertEqual(coarse, "1")
+            self.assertLess(server.bytes, without)
+        listed, = self.made("--top", "1")
+        self.assertLessEqual(triangles, max(300, listed["surfaces"][0]["coarsest"]))
+        lod.write_bytes(lod.read_bytes()[:5000])
+        with FileServer(self.folder) as server, self.assertRaisesRegex(AssertionError, "field.atlas.lod"):
+            self.first_surface(f"{server.address}/field.atlas")
+        lod.unlink()
+
+
+if __name__ == "__main__":
+    harness.main()
