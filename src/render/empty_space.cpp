@@ -1,8 +1,10 @@
 #include "render/empty_space.h"
 
 #include <algorithm>
+#include <cstring>
 
 #include "base/parallel.h"
+#include "base/target_clones.h"
 
 namespace isoatlas {
 namespace {
@@ -12,13 +14,31 @@ template <class T>
 struct RowExtremes {
     std::vector<T> low, high;
     void begin(std::span<const T> row) { low.assign(row.begin(), row.end()), high = low; }
-    void take(std::span<const T> row) {
-        T* lows = low.data();
-        T* highs = high.data();
-        const T* samples = row.data();
-        for (std::size_t i = 0; i < row.size(); ++i) lows[i] = std::min(lows[i], samples[i]), highs[i] = std::max(highs[i], samples[i]);
-    }
+    void take(std::span<const T> row);
 };
+
+template <class T>
+ISOATLAS_TARGET_CLONES void RowExtremes<T>::take(std::span<const T> row) {
+    constexpr std::size_t kBytes = 32, kCount = kBytes / sizeof(T);
+    std::size_t i = 0;
+    for (; i + kCount <= row.size(); i += kCount) {
+        T __attribute__((vector_size(kBytes))) lows, highs, samples;  // lowered to what the processor has
+        std::memcpy(&lows, low.data() + i, sizeof lows), std::memcpy(&highs, high.data() + i, sizeof highs);
+        std::memcpy(&samples, row.data() + i, sizeof samples);
+        lows = samples < lows ? samples : lows, highs = highs < samples ? samples : highs;
+        std::memcpy(low.data() + i, &lows, sizeof lows), std::memcpy(high.data() + i, &highs, sizeof highs);
+    }
+    for (; i < row.size(); ++i) low[i] = std::min(low[i], row[i]), high[i] = std::max(high[i], row[i]);
+}
+
+template struct RowExtremes<std::uint8_t>;
+template struct RowExtremes<std::int8_t>;
+template struct RowExtremes<std::uint16_t>;
+template struct RowExtremes<std::int16_t>;
+template struct RowExtremes<std::uint32_t>;
+template struct RowExtremes<std::int32_t>;
+template struct RowExtremes<float>;
+template struct RowExtremes<double>;
 
 template <class T>
 void find_row(std::span<const T> samples, const Extent& extent, std::int64_t row, BlockRanges& blocks) {
