@@ -25,7 +25,7 @@ demo|libgdcm-dev|compressed DICOM files
 demo|libopenvdb-dev|OpenVDB files
 demo|libblosc-dev|compressed chunks of Zarr arrays
 demo|liblz4-dev|the same
-demo|libbz2-dev|the same, and of HDF5
+demo|libbz2-dev|the same, and of HDF5, bzip2 in NRRD files
 demo|libcurl4-openssl-dev|files on web servers
 demo|libxxhash-dev|checksums of stores
 demo|libdeflate-dev|compressed trees in stores, PNG files

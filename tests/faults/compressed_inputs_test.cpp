@@ -45,7 +45,8 @@ TEST(CompressedInputs, EveryPrefixIsRefusedOrWhole) {
             EXPECT_NE(static_cast<int>(outcome), static_cast<int>(Damage::Outcome::other_samples));
             // What is cut off a TIFF or VTI file need not be samples; elsewhere the last bytes are the checksum.
             const bool ends_with_samples = seed.name.ends_with(".nrrd") || seed.name.ends_with(".nii.gz") || seed.name.ends_with(".mha") ||
-                                           seed.damaged.ends_with(".gz") || seed.damaged.ends_with(".zraw");
+                                           seed.damaged.ends_with(".gz") || seed.damaged.ends_with(".bz2") ||
+                                           seed.damaged.ends_with(".zraw");
             EXPECT_TRUE(!ends_with_samples || outcome == Damage::Outcome::refused);
         }
     }
@@ -62,7 +63,10 @@ TEST(CompressedInputs, ExtraBytesAreRefusedUnlessSkipped) {
                                                                      {"gzip", test::gzip(samples + std::string(200000, 'm'))},
                                                                      {"gzip", test::gzip(samples) + test::gzip("more")},
                                                                      {"gzip", test::gzip(samples) + "garbage"},
-                                                                     {"gzip", test::zlib(samples) + "garbage"}};
+                                                                     {"gzip", test::zlib(samples) + "garbage"},
+                                                                     {"bzip2", test::bzip2(samples + "m")},
+                                                                     {"bzip2", test::bzip2(samples) + test::bzip2("more")},
+                                                                     {"bzip2", test::bzip2(samples) + "BZ"}};
     OpenOptions skip;
     skip.skip_rest = true;
     for (const auto& [encoding, payload] : longer) {

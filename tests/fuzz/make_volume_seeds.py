@@ -169,6 +169,10 @@ def main():
     write("nrrd", "longer", nrrd(5, oriented + "encoding: gzip\n", gzip.compress(SAMPLES + b"more", mtime=0)))
     write("nrrd", "members", nrrd(5, oriented + "encoding: gzip\n", gzip.compress(SAMPLES[:20], mtime=0) + gzip.compress(SAMPLES[20:], mtime=0)))
     write("nrrd", "behind", nrrd(5, oriented + "encoding: gzip\n", gzip.compress(SAMPLES, mtime=0) + b"garbage"))
+    streams = bz2.compress(SAMPLES[:20]) + bz2.compress(SAMPLES[20:], 1)
+    for name, payload in (("bzip2", bz2.compress(SAMPLES)), ("streams", streams), ("longer_bzip2", bz2.compress(SAMPLES + b"more") + b"BZh")):
+        write("nrrd", name, nrrd(5, oriented + "encoding: bzip2\n", payload))
+    write("nrrd", "skip_bzip2", nrrd(5, plain + "encoding: bz2\nbyte skip: 4\n", bz2.compress(b"skip" + SAMPLES)))
     write("nrrd", "elsewhere", nrrd(4, plain + "encoding: raw\nbyte skip: -1\ndata file: ../v.raw\n", b""))
     latin = 'content: Sch\xe4del\nspace units: "\xb5m" "\xb5m" "\xb5m"\nsample units: \xb0C\n'.encode("latin-1")
     write("nrrd", "latin", b"NRRD0004\n" + oriented.replace('space units: "mm" "mm" "mm"\n', "").encode() + b"encoding: raw\n" + latin + b"\n" + SAMPLES)

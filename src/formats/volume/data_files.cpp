@@ -4,6 +4,7 @@
 #include <array>
 #include <limits>
 
+#include "formats/common/bzip2_source.h"
 #include "formats/common/own_folder.h"
 #include "formats/common/text.h"
 #include "formats/common/text_source.h"
@@ -67,7 +68,8 @@ std::unique_ptr<ByteSource> open_one(const PayloadPlan& plan, const std::string&
     const std::int64_t offset = plan.skip > kMax - begin ? kMax : begin + std::max<std::int64_t>(0, plan.skip);
     if (plan.encoding == Encoding::raw) return open_file_source(path, offset);
     if (plan.encoding == Encoding::text) return open_text_source(open_file_source(path, offset), plan.type);
-    std::unique_ptr<ByteSource> inflated = open_inflate_source(path, offset);
+    std::unique_ptr<ByteSource> inflated =
+        plan.encoding == Encoding::bzip2 ? open_bzip2_source(path, offset) : open_inflate_source(path, offset);
     if (plan.inflated_skip == 0) return inflated;
     return skip_bytes(std::move(inflated), plan.inflated_skip);
 }

@@ -27,7 +27,7 @@ struct DataFiles {
 /// A series from its words: pattern first last [step]. Throws Error{input} with `where` for words that are not a series.
 [[nodiscard]] DataFiles parse_series(const std::string& header_path, const std::string& where, const std::vector<std::string_view>& words);
 
-enum class Encoding : std::uint8_t { raw, deflate, text };
+enum class Encoding : std::uint8_t { raw, deflate, bzip2, text };
 
 /// Location and encoding of the samples.
 struct PayloadPlan {

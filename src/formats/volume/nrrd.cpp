@@ -69,11 +69,12 @@ NamedEncoding sample_encoding(const NrrdHeader& header) {
     const std::string name = lower(header.text("encoding"));
     if (name == "raw") return {Encoding::raw, "raw"};
     if (name == "gzip" || name == "gz") return {Encoding::deflate, "gzip"};
+    if (name == "bzip2" || name == "bz2") return {Encoding::bzip2, "bzip2"};
     if (name == "ascii" || name == "text" || name == "txt") return {Encoding::text, "ascii"};
-    const bool known = name == "bzip2" || name == "bz2" || name == "hex" || name == "zrl";
+    const bool known = name == "hex" || name == "zrl";
     header.fail(known ? ErrorKind::unsupported : ErrorKind::input, "encoding",
                 name.empty() ? "is missing" : in_quotes(name) + (known ? " is not supported" : " is not a NRRD encoding"),
-                "raw, gzip or ascii", "convert the file, for example: unu save -f nrrd -e gzip -i IN.nrrd -o OUT.nrrd");
+                "raw, gzip, bzip2 or ascii", "convert the file, for example: unu save -f nrrd -e gzip -i IN.nrrd -o OUT.nrrd");
 }
 
 bool big_endian_samples(const NrrdHeader& header, ValueType type, Encoding encoding) {
@@ -123,7 +124,8 @@ PayloadPlan payload_plan(const NrrdHeader& header, Encoding encoding, ValueType 
     plan.offset = plan.files.count() == 0 ? header.data_offset : 0;
     plan.line_skip = skip_count(header, "line skip", 0);
     const std::int64_t skip = skip_count(header, "byte skip", encoding == Encoding::raw ? -1 : 0);
-    (encoding == Encoding::deflate ? plan.inflated_skip : plan.skip) = skip;  // NRRD skips bytes after decompression
+    const bool is_compressed = encoding == Encoding::deflate || encoding == Encoding::bzip2;
+    (is_compressed ? plan.inflated_skip : plan.skip) = skip;  // NRRD skips bytes after decompression
     plan.type = type;
     plan.sample_bytes = bytes;
     return plan;

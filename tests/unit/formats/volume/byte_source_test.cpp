@@ -6,7 +6,9 @@
 
 #include <cerrno>
 
+#include "formats/common/bzip2_source.h"
 #include "formats/common/file_access.h"
+#include "unit/formats/volume/bzip2_stream.h"
 #include "unit/formats/volume/volume_files.h"
 
 namespace isoatlas {
@@ -68,6 +70,9 @@ std::vector<std::unique_ptr<ByteSource>> sources_of(const test::TestFolder& fold
     sources.push_back(
         open_inflate_source(folder.write("members", test::gzip(payload.substr(0, 5)) + test::gzip("") + test::gzip(payload.substr(5)))));
     sources.push_back(open_inflate_source(folder.write("padded", test::gzip(payload) + std::string(9, '\0'))));
+    sources.push_back(open_bzip2_source(folder.write("bz2", "head" + test::bzip2(payload)), 4));
+    sources.push_back(open_bzip2_source(folder.write(
+        "streams", test::bzip2(payload.substr(0, 5)) + test::bzip2("") + test::bzip2(payload.substr(5)) + std::string(9, '\0'))));
     sources.push_back(open_parts_source({.count = 3,
                                          .part_bytes = part_bytes,
                                          .size_bound = 3 * part_bytes,
@@ -112,14 +117,14 @@ TEST(ByteSource, FailingDisksAreReported) {
     const test::TestFolder folder;
     const std::string payload = test::telling_bytes(300);
     const std::string plain = folder.write("plain", payload), packed = folder.write("gz", test::gzip(payload));
-    for (const bool compressed : {false, true}) {
+    const std::string blocks = folder.write("bz2", test::bzip2(payload));
+    const std::function<std::unique_ptr<ByteSource>()> opened[] = {
+        [&] { return open_file_source(plain); }, [&] { return open_inflate_source(packed); }, [&] { return open_bzip2_source(blocks); }};
+    for (const auto& open : opened) {
         for (std::int64_t offset = 0; offset < 200; offset += 7) {
             for (const int error : {EIO, 0}) {
                 const WithBadDisk disk(64, offset, error);
-                const test::Failure failure = failure_of([&] {
-                    const auto source = compressed ? open_inflate_source(packed) : open_file_source(plain);
-                    read_text(*source, 300);
-                });
+                const test::Failure failure = failure_of([&] { read_text(*open(), 300); });
                 expect_helpful(failure, ErrorKind::input, error == EIO ? "Input/output error" : "ends early");
                 EXPECT_NE(failure.text.where.find("offset " + std::to_string(offset)), std::string::npos) << failure.message;
             }
@@ -135,6 +140,8 @@ TEST(ByteSource, RangesBeyondTheFile) {
         expect_helpful(failure_of([&, o = offset, l = length] { static_cast<void>(open_file_source(path, o, l)); }), ErrorKind::input,
                        "5 bytes");
         expect_helpful(failure_of([&, o = offset, l = length] { static_cast<void>(open_inflate_source(path, o, l)); }), ErrorKind::input,
+                       "5 bytes");
+        expect_helpful(failure_of([&, o = offset, l = length] { static_cast<void>(open_bzip2_source(path, o, l)); }), ErrorKind::input,
                        "5 bytes");
     }
 }

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "unit/formats/volume/bzip2_stream.h"
 #include "unit/formats/volume/tiff_files.h"
 #include "unit/formats/volume/volume_files.h"
 
@@ -82,6 +83,8 @@ inline std::vector<CompressedSeed> compressed_seeds(const TestFolder& folder) {
     };
     add("gzip.nrrd", nrrd + "encoding: gzip\n\n" + gzip(samples));
     add("members.nrrd", nrrd + "encoding: gzip\n\n" + gzip(samples.substr(0, 50)) + gzip(samples.substr(50)));
+    add("bzip2.nrrd", nrrd + "encoding: bzip2\n\n" + bzip2(samples));
+    add("streams.nrrd", nrrd + "encoding: bzip2\n\n" + bzip2(samples.substr(0, 50)) + bzip2(samples.substr(50)));
     add("zlib.mha", meta + "ElementDataFile = LOCAL\n" + zlib(big));
     add("gzip.nii.gz", gzip(nifti_header(false) + samples));
     add("raw.vti", vti(samples, false));
@@ -91,6 +94,10 @@ inline std::vector<CompressedSeed> compressed_seeds(const TestFolder& folder) {
     folder.write("part1.gz", gzip(samples.substr(48)));
     seeds.push_back({.name = "detached.nhdr", .damaged = "part1.gz"});
     seeds.push_back({.name = "detached.nhdr", .damaged = "part0.gz"});
+    folder.write("blocks.nhdr", nrrd + "encoding: bzip2\ndata file: part%d.bz2 0 1 1 3\n");
+    folder.write("part0.bz2", bzip2(samples.substr(0, 48)));
+    folder.write("part1.bz2", bzip2(samples.substr(48)));
+    seeds.push_back({.name = "blocks.nhdr", .damaged = "part1.bz2"});
     folder.write("zraw.mhd", meta + "ElementDataFile = v.zraw\n");
     folder.write("v.zraw", zlib(big));
     seeds.push_back({.name = "zraw.mhd", .damaged = "v.zraw"});

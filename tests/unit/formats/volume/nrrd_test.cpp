@@ -1,6 +1,8 @@
 // NRRD: every variant of the same samples reads to the same bytes; geometry, axes and refusals.
 #include <gtest/gtest.h>
 
+#include "unit/formats/volume/bzip2_stream.h"
+#include "unit/formats/volume/hostile_files.h"
 #include "unit/formats/volume/volume_files.h"
 
 namespace isoatlas {
@@ -33,6 +35,10 @@ std::string header(const std::string& type, const std::string& more, const std::
 
 std::string samples_of(const std::string& path, const OpenOptions& options = {}) { return test::text_of_bytes(load_volume(path, options)); }
 
+std::string encoded(const std::string& samples, const std::string& encoding) {
+    return encoding == "gzip" ? test::gzip(samples) : encoding == "bzip2" ? test::bzip2(samples) : samples;
+}
+
 TEST(Nrrd, EveryTypeEndianAndEncoding) {
     const test::TestFolder folder;
     for (const NrrdType& type : kTypes) {
@@ -50,7 +56,13 @@ TEST(Nrrd, EveryTypeEndianAndEncoding) {
             {"endian: little\nencoding: raw\nline skip: 2\nbyte skip: 1\n\n", "a line\nanother\n." + samples},
             {"endian: little\nencoding: gzip\nbyte skip: 5\n\n", test::gzip("12345" + samples)},
             {"endian: little\nencoding: gzip\nline skip: 1\n\n", "a line\n" + gzipped},
-            {"endian: little\nencoding: gzip\n\n", test::gzip(samples.substr(0, 11)) + test::gzip(samples.substr(11))}};
+            {"endian: little\nencoding: gzip\n\n", test::gzip(samples.substr(0, 11)) + test::gzip(samples.substr(11))},
+            {"endian: little\nencoding: bzip2\n\n", test::bzip2(samples)},
+            {"endian: big\nencoding: bz2\n\n", test::bzip2(big, 1)},
+            {"endian: little\nencoding: bzip2\nbyte skip: 5\n\n", test::bzip2("12345" + samples)},
+            {"endian: little\nencoding: BZ2\nline skip: 1\n\n", "a line\n" + test::bzip2(samples)},
+            {"endian: little\nencoding: bzip2\n\n", test::bzip2(samples.substr(0, 11)) + test::bzip2("") + test::bzip2(samples.substr(11))},
+            {"endian: little\nencoding: bzip2\n\n", test::bzip2(samples) + std::string(9, '\0')}};
         for (const auto& [more, payload] : files) {
             SCOPED_TRACE(more);
             const std::string path = folder.write("v.nrrd", header(type.spelling, more) + payload);
@@ -67,9 +79,9 @@ TEST(Nrrd, EveryTypeEndianAndEncoding) {
 TEST(Nrrd, SlabsInAnyOrder) {
     const test::TestFolder folder;
     const std::string samples = test::telling_bytes(6 * 20 * 2);
-    for (const std::string encoding : {"raw", "gzip"}) {
-        const std::string path = folder.write("v.nrrd", header("short", "endian: little\nencoding: " + encoding + "\n\n", "5 4 6") +
-                                                            (encoding == "raw" ? samples : test::gzip(samples)));
+    for (const std::string encoding : {"raw", "gzip", "bzip2"}) {
+        const std::string path =
+            folder.write("v.nrrd", header("short", "endian: little\nencoding: " + encoding + "\n\n", "5 4 6") + encoded(samples, encoding));
         const auto reader = open_volume(path);
         for (int i = 0; i < 200; ++i) {
             const std::int64_t a = i * 7 % 6, b = std::min<std::int64_t>(6, a + 1 + i % 4);
@@ -113,6 +125,7 @@ TEST(Nrrd, DetachedListsAndSeries) {
     std::filesystem::create_directory(folder / "data");
     folder.write("data/all.raw", samples);
     folder.write("data/all.raw.gz", test::gzip(samples));
+    folder.write("data/all.raw.bz2", test::bzip2(samples));
     for (int i = 0; i < 3; ++i) {
         folder.write("data/s" + std::to_string(8 + 2 * i) + ".raw", samples.substr(static_cast<std::size_t>(i) * 40, 40));
         folder.write("data/p" +
@@ -122,6 +135,7 @@ TEST(Nrrd, DetachedListsAndSeries) {
                          ".raw",
                      "xy" + samples.substr(static_cast<std::size_t>(i) * 40, 40));
         folder.write("data/z" + std::to_string(i) + ".gz", test::gzip(samples.substr(static_cast<std::size_t>(i) * 40, 40)));
+        folder.write("data/z" + std::to_string(i) + ".bz2", test::bzip2("xyz" + samples.substr(static_cast<std::size_t>(i) * 40, 40)));
     }
     const std::string start = "endian: little\n";
     const std::vector<std::string> headers = {start + "encoding: raw\ndata file: data/all.raw\n",
@@ -130,6 +144,8 @@ TEST(Nrrd, DetachedListsAndSeries) {
                                               start + "encoding: raw\nbyte skip: 2\ndata file: data/p%03d.raw 8 12 2 2\n",
                                               start + "encoding: raw\nbyte skip: -1\ndata file: data/p%03d.raw 8 12 2\n",
                                               start + "encoding: gzip\ndata file: LIST\ndata/z0.gz\ndata/z1.gz\ndata/z2.gz\n",
+                                              start + "encoding: bzip2\ndata file: data/all.raw.bz2\n",
+                                              start + "encoding: bz2\nbyte skip: 3\ndata file: data/z%d.bz2 0 2 1\n",
                                               start + "encoding: raw\ndata file: LIST 2\ndata/s8.raw\r\ndata/s10.raw\r\ndata/s12.raw\r\n"};
     for (const std::string& more : headers) {
         SCOPED_TRACE(more);
@@ -171,10 +187,10 @@ TEST(Nrrd, TwoDimensionsAndThinVolumes) {
 TEST(Nrrd, FourDimensionsNeedATimeStep) {
     const test::TestFolder folder;
     const std::string samples = test::telling_bytes(2 * 3 * 4 * 5 * 2);
-    for (const std::string encoding : {"raw", "gzip"}) {
+    for (const std::string encoding : {"raw", "gzip", "bzip2"}) {
         const std::string path = folder.write(
             "v.nrrd", "NRRD0004\ntype: short\ndimension: 4\nsizes: 2 3 4 5\nkinds: space space space time\nendian: little\nencoding: " +
-                          encoding + "\n\n" + (encoding == "raw" ? samples : test::gzip(samples)));
+                          encoding + "\n\n" + encoded(samples, encoding));
         expect_reason(failure_of_loading(path), ErrorKind::usage, Reason::time_step_needed, "4");
         for (std::int64_t step = 0; step < 5; ++step) {
             OpenOptions options;
@@ -263,8 +279,9 @@ TEST(Nrrd, Refusals) {
         {header("shrot", raw), ErrorKind::input, "not a NRRD type"},
         {header("short", raw), ErrorKind::input, "endian: little"},
         {header("short", "endian: middle\n" + raw), ErrorKind::input, "'middle'"},
-        {header("uchar", "encoding: bzip2\n\n"), ErrorKind::unsupported, "unu save"},
+        {header("uchar", "encoding: zrl\n\n"), ErrorKind::unsupported, "unu save"},
         {header("uchar", "encoding: hex\n\n"), ErrorKind::unsupported, "hex"},
+        {header("uchar", "encoding: bzip2\n\n"), ErrorKind::input, "a bzip2 stream"},
         {header("uchar", "encoding: zip\n\n"), ErrorKind::input, "not a NRRD encoding"},
         {header("uchar", "\n"), ErrorKind::input, "encoding"},
         {header("uchar", raw, "5 4"), ErrorKind::input, "has 2 values"},
@@ -282,6 +299,7 @@ TEST(Nrrd, Refusals) {
         {header("uchar", "space directions: (1,0,0) (0,1,0 (0,0,1)\n" + raw), ErrorKind::input, "space directions"},
         {header("uchar", "byte skip: -2\n" + raw), ErrorKind::input, "byte skip"},
         {header("uchar", "byte skip: -1\nencoding: gzip\n\n"), ErrorKind::input, "byte skip"},
+        {header("uchar", "byte skip: -1\nencoding: bzip2\n\n"), ErrorKind::input, "byte skip"},
         {header("uchar", "byte skip: 9223372036854775807\n" + raw), ErrorKind::input, "ends early"},
         {header("uchar", "no colon here\n" + raw), ErrorKind::input, "line 6"},
         {header("uchar", "calibration_slope:=two\n" + raw), ErrorKind::input, "'two'"},
@@ -305,18 +323,66 @@ TEST(Nrrd, Refusals) {
 TEST(Nrrd, TrailingBytesAndCorruptChecksums) {
     const test::TestFolder folder;
     const std::string samples = test::telling_bytes(60);
-    expect_helpful(failure_of_loading(folder.write("v.nrrd", header("uchar", "encoding: raw\n\n") + samples + "more")), ErrorKind::input,
-                   "4 bytes follow");
-    expect_helpful(failure_of_loading(folder.write("v.nrrd", header("uchar", "encoding: gzip\n\n") + test::gzip(samples + "more"))),
-                   ErrorKind::input, "4 bytes follow");
-    std::string damaged = test::gzip(samples);
-    damaged[damaged.size() - 6] ^= 1;  // in the CRC
-    expect_helpful(failure_of_loading(folder.write("v.nrrd", header("uchar", "encoding: gzip\n\n") + damaged)), ErrorKind::input,
-                   "corrupt");
-    expect_helpful(failure_of_loading(folder.write("v.nrrd", header("uchar", "encoding: gzip\n\n") + test::gzip(samples.substr(1)))),
-                   ErrorKind::input, "1 more bytes");
-    expect_helpful(failure_of_loading(folder.write("v.nrrd", header("uchar", "encoding: gzip\n\n") + samples)), ErrorKind::input,
-                   "corrupt");
+    const auto failure = [&](const std::string& encoding, const std::string& payload) {
+        return failure_of_loading(folder.write("v.nrrd", header("uchar", "encoding: " + encoding + "\n\n") + payload));
+    };
+    expect_helpful(failure("raw", samples + "more"), ErrorKind::input, "4 bytes follow");
+    for (const std::string encoding : {"gzip", "bzip2"}) {
+        SCOPED_TRACE(encoding);
+        const std::string packed = encoded(samples, encoding);
+        expect_helpful(failure(encoding, encoded(samples + "more", encoding)), ErrorKind::input, "4 bytes follow");
+        expect_helpful(failure(encoding, packed + encoded("more", encoding)), ErrorKind::input, "4 bytes follow");
+        expect_helpful(failure(encoding, packed + "garbage"), ErrorKind::input, "7 bytes follow");
+        std::string damaged = packed;
+        damaged[damaged.size() - 6] ^= 1;  // in the CRC; of bzip2: in the mark of the end
+        expect_helpful(failure(encoding, damaged), ErrorKind::input, "corrupt");
+        expect_helpful(failure(encoding, encoded(samples.substr(1), encoding)), ErrorKind::input, "1 more bytes");
+        expect_helpful(failure(encoding, samples), ErrorKind::input, "corrupt");
+    }
+    expect_helpful(failure("bzip2", test::gzip(samples)), ErrorKind::input, "it does not begin as bzip2 does");
+}
+
+TEST(Nrrd, EveryTruncationAndDamagedBitOfBzip2) {
+    const test::TestFolder folder;
+    const std::string samples = test::telling_bytes(60), start = header("uchar", "encoding: bzip2\n\n");
+    for (const std::string& payload : {test::bzip2(samples), test::bzip2(samples.substr(0, 20)) + test::bzip2(samples.substr(20))}) {
+        for (std::size_t size = 0; size < payload.size(); ++size) {
+            SCOPED_TRACE("cut to " + std::to_string(size));
+            expect_helpful(failure_of_loading(folder.write("v.nrrd", start + payload.substr(0, size))), ErrorKind::input, "");
+        }
+        const std::string path = folder.write("v.nrrd", "");
+        int harmless = 0;
+        for (std::size_t bit = 0; bit < 8 * payload.size(); ++bit) {
+            SCOPED_TRACE("bit " + std::to_string(bit));
+            std::string damaged = payload;
+            damaged[bit / 8] = static_cast<char>(damaged[bit / 8] ^ 1 << bit % 8);
+            const test::Replaced replaced(path, start + damaged);
+            std::string read;
+            const test::Failure failure = test::failure_of([&] { read = samples_of(path); });
+            if (!failure.message.empty()) {
+                expect_helpful(failure, ErrorKind::input, "");
+            } else {  // the size of blocks, the padding of the last byte
+                EXPECT_EQ(read, samples);
+                ++harmless;
+            }
+        }
+        EXPECT_LT(harmless, 40);
+    }
+}
+
+/// A stream of many blocks; what a few bytes may claim.
+TEST(Nrrd, Bzip2OfManyBlocks) {
+    const test::TestFolder folder;
+    const std::string samples = test::telling_bytes(700'000), zeros(60'000'000, '\0');
+    const std::string path = folder.write("v.nrrd", header("uchar", "encoding: bzip2\n\n", "100 100 70") + test::bzip2(samples, 1));
+    const auto reader = open_volume(path);
+    EXPECT_EQ(test::read_all(*reader, 7), samples);
+    const std::string few = test::bzip2(zeros);
+    EXPECT_LT(few.size(), 100U);
+    const std::string claim = folder.write("w.nrrd", header("uchar", "encoding: bzip2\n\n", "1000 1000 60") + few);
+    EXPECT_EQ(samples_of(claim), zeros);
+    expect_helpful(failure_of_loading(folder.write("w.nrrd", header("uchar", "encoding: bzip2\n\n", "1000 1000 999999") + few)),
+                   ErrorKind::input, "cannot hold more");
 }
 
 }  // namespace
