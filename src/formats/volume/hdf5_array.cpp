@@ -68,7 +68,7 @@ std::string signal_of(const Hdf5File& file, const std::string& group) {
     return join_path(group, signal);
 }
 
-std::string parent_of(const std::string& path) { return path.rfind('/') == 0 ? "/" : path.substr(0, path.rfind('/')); }
+std::string hdf5_parent_of(const std::string& path) { return path.rfind('/') == 0 ? "/" : path.substr(0, path.rfind('/')); }
 
 /// The array of a file that isoatlas wrote, also when it is one sample thick; "": it is none.
 std::string own_array(const Hdf5File& file) {
@@ -81,7 +81,7 @@ std::string own_array(const Hdf5File& file) {
 
 /// Names of the axes of an array of NXdata, for each of its dimensions; empty: not of NXdata.
 std::vector<std::string> nexus_axes(const Hdf5File& file, const Hdf5Array& array) {
-    const std::string group = parent_of(array.path);
+    const std::string group = hdf5_parent_of(array.path);
     std::vector<std::string> axes = file.texts(group, "axes");
     if (axes.empty()) {  // of files before 2014: names with colons between them, an attribute of the array
         std::string joined = file.text(array.path, "axes");
@@ -121,7 +121,7 @@ void set_nexus_axes(const Hdf5File& file, const Hdf5Array& array, Hdf5Place& pla
     for (std::size_t a = 0; a < 3; ++a) {
         if (place.dimension[a] < 0) continue;
         const std::string& name = names[static_cast<std::size_t>(place.dimension[a])];
-        if (!name.empty()) axes[a] = read_nexus_axis(file, parent_of(array.path), name, info.notes);
+        if (!name.empty()) axes[a] = read_nexus_axis(file, hdf5_parent_of(array.path), name, info.notes);
     }
     set_placed_axes(info, std::move(axes), place.flipped);
 }

@@ -22,7 +22,7 @@ std::int64_t count_or(std::string_view word, std::int64_t missing) {
 }
 
 /// The short ASCII name of a length unit; inches are left to the caller.
-std::string unit_name(std::string_view word) {
+std::string tiff_unit_name(std::string_view word) {
     std::string unit = lower(trim(word));
     for (const std::string_view micro :
          {"um", "micron", "microns", "micrometer", "\\u00b5m", "\\u03bcm", "\xc2\xb5m", "\xce\xbcm", "\xb5m"}) {
@@ -44,7 +44,7 @@ void take_imagej_line(std::string_view key, std::string_view value, TiffDescript
     if (key == "slices") description.slices = count_or(value, 1);
     if (key == "frames") description.frames = count_or(value, 1);
     if (key == "spacing") description.spacing[2] = positive_or_zero(value);
-    if (key == "unit") description.unit = unit_name(value);
+    if (key == "unit") description.unit = tiff_unit_name(value);
     if (key == "finterval") description.frame_interval = positive_or_zero(value);
     if (key == "tunit") description.time_unit = std::string(trim(value));
     if (key == "vunit") description.value_unit = std::string(trim(value));
