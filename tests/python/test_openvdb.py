@@ -132,6 +132,42 @@ def test_truncated_files_are_refused(tmp_path):
 
 
 @pytest.mark.skipif(not CLI, reason="ISOATLAS_CLI does not name the command line")
+def test_forged_sizes_take_no_memory(tmp_path):
+    array = np.random.default_rng(6).random((10, 10, 10)).astype("float32")
+    grid = grid_of(array)
+    grid["note"] = "a text"
+    vdb.write(str(tmp_path / "v.vdb"), grids=[grid], metadata={"creator": "a test"})
+    whole = (tmp_path / "v.vdb").read_bytes()
+    assert outcome(tmp_path / "v.vdb", 1 << 30).returncode == 0
+    lengths = [place for text in (b"creator", b"a test", b"density", b"Tree_float_5_4_3", b"note", b"a text", b"class")
+               for place in range(len(whole)) if whole.startswith(len(text).to_bytes(4, "little") + text, place)]
+    blosc = [place for place in range(len(whole) - 24) if whole[place + 4:place + 8] == bytes(4) and whole[place + 8] == 2 and
+             whole[place:place + 4] == whole[place + 20:place + 24] != bytes(4)]
+    entries, grids = 57, whole.index(b"density") - 8  # numbers of entries of the metadata, of grids
+    assert len(lengths) >= 7 and len(blosc) >= 2
+    for place, size in [*[(place, 4) for place in [*lengths, entries, grids]], *[(place, 8) for place in blosc], *[(place + 20, 4) for place in blosc]]:
+        for forged in (2**31 - 1, 2**30, 2**(8 * size) - 1):
+            (tmp_path / "w.vdb").write_bytes(whole[:place] + forged.to_bytes(size, "little") + whole[place + size:])
+            done = outcome(tmp_path / "w.vdb", 1 << 30)
+            assert done.returncode == 3 and done.stderr.count("\n") == 1 and "memory" not in done.stderr, (place, forged, done.stderr)
+
+
+def test_one_grid_is_read_of_many(tmp_path):
+    grids = [grid_of(np.full((4, 5, 6), number, "float32"), name=f"g{number}") for number in range(1, 4)]
+    twin = grids[1].copy()  # shares its tree
+    twin.name, twin.transform = "twin", vdb.createLinearTransform(voxelSize=2)
+    vectors = vdb.Vec3SGrid()
+    vectors.fill((0, 0, 0), (3, 3, 3), (1, 2, 3))
+    vectors.name = "vectors"
+    vdb.write(str(tmp_path / "v.vdb"), grids=[vectors, *grids, twin])
+    assert all((isoatlas.open(f"{tmp_path}/v.vdb:/g{number}").volume == number).all() for number in range(1, 4))
+    atlas = isoatlas.open(f"{tmp_path}/v.vdb:/twin")
+    assert (atlas.volume == 2).all() and atlas.volume.shape == (4, 5, 6) and np.allclose(atlas.info["spacing"], 2)
+    with pytest.raises(isoatlas.Error, match="vec3s"):
+        isoatlas.open(f"{tmp_path}/v.vdb:/vectors")
+
+
+@pytest.mark.skipif(not CLI, reason="ISOATLAS_CLI does not name the command line")
 def test_damaged_bytes_never_end_the_program(tmp_path):
     array = np.random.default_rng(5).random((6, 7, 5)).astype("float32")
     vdb.write(str(tmp_path / "v.vdb"), grids=[grid_of(array)])

@@ -6,6 +6,7 @@
 #include <exception>
 #include <istream>
 #include <limits>
+#include <map>
 #include <memory>
 #include <sstream>
 #include <unordered_map>
@@ -64,33 +65,41 @@ struct VdbGrid {
     std::string name;
 };
 
-/// The grid that is chosen. All grids are read for it: a stream has no table of them.
+constexpr std::string_view kReadTypes[] = {"float", "double", "int32", "int64", "bool"};
+
+[[noreturn]] void unsupported_values(const std::string& path, const std::string& grid, const std::string& what) {
+    throw Error(ErrorKind::unsupported, {.file = path,
+                                         .where = "grid " + grid,
+                                         .what = what,
+                                         .expected = "a grid of float, double, int32, int64 of 32 bits, or bool",
+                                         .next = "choose another grid, or convert it"});
+}
+
+/// The grid that is chosen; no other is read.
 VdbGrid read_grid(const std::string& path, const OpenOptions& options) {
-    openvdb::initialize();
-    FileBuffer buffer(path);
-    std::istream stream(&buffer);
-    stream.exceptions(std::ios::badbit | std::ios::failbit | std::ios::eofbit);
-    openvdb::io::Stream file(stream, /*delayLoad=*/false);
-    const openvdb::GridPtrVecPtr grids = file.getGrids();
-    if (!grids || grids->empty()) refuse_vdb(path, "it has no grid");
+    const VdbFile file = read_vdb_file(path);
     std::vector<ErrorChoice> choices;
-    for (const openvdb::GridBase::Ptr& grid : *grids) {
-        std::string word = "/" + shown_name(grid->getName().empty() ? "grid" : grid->getName());
-        const auto same = std::ranges::count_if(choices, [&](const ErrorChoice& other) { return other.word == word; });
-        if (same > 0) word += "@" + std::to_string(choices.size());
-        choices.push_back({word, shown_name(grid->valueType())});
+    std::map<std::string, int> words;
+    for (const VdbGridPlace& grid : file.grids) {
+        std::string word = "/" + shown_name(grid.name.empty() ? "grid" : grid.name);
+        if (words[word]++ > 0) word += "@" + std::to_string(choices.size());
+        choices.push_back({word, shown_name(grid.type)});
     }
     const std::size_t chosen = choose_dataset(path, options, choices);
-    return {(*grids)[chosen], choices[chosen].word};
+    const VdbGridPlace& place = file.grids[chosen];
+    if (std::ranges::find(kReadTypes, place.type) == std::end(kReadTypes))
+        unsupported_values(path, choices[chosen].word, "values of type " + choices[chosen].about + " are not supported");
+    openvdb::initialize();
+    VdbStreamBuffer buffer(path, checked_vdb_grid(file, place));
+    std::istream stream(&buffer);
+    stream.exceptions(std::ios::badbit | std::ios::failbit | std::ios::eofbit);
+    openvdb::io::Stream read(stream, /*delayLoad=*/false);
+    const openvdb::GridPtrVecPtr grids = read.getGrids();
+    if (!grids || grids->empty()) refuse_vdb(path, "it has no grid");
+    return {grids->back(), choices[chosen].word};
 }
 
 void set_geometry(const std::string& path, const openvdb::GridBase& grid, const openvdb::CoordBBox& box, VolumeInfo& info) {
-    if (!grid.transform().isLinear()) {
-        throw Error(ErrorKind::unsupported, {.file = path,
-                                             .what = "the grid lies in a frustum, not in even steps",
-                                             .expected = "a linear transform",
-                                             .next = "resample it to even voxels, for example in Houdini"});
-    }
     const auto world = [&](double x, double y, double z) { return grid.transform().indexToWorld(openvdb::Vec3d(x, y, z)); };
     const openvdb::Vec3d first = grid.transform().indexToWorld(box.min().asVec3d()), zero = world(0, 0, 0);
     const std::array<openvdb::Vec3d, 3> ends{world(1, 0, 0), world(0, 1, 0), world(0, 0, 1)};
@@ -179,12 +188,7 @@ std::unique_ptr<VolumeReader> open_grid(const std::string& path, const OpenOptio
         take(std::type_identity<openvdb::Int32Grid>{}, std::int32_t{}) || take(std::type_identity<openvdb::BoolGrid>{}, std::uint8_t{}) ||
         (wide && fits_in_32_bits(*wide) && take(std::type_identity<openvdb::Int64Grid>{}, std::int32_t{})))
         return reader;
-    throw Error(ErrorKind::unsupported, {.file = path,
-                                         .where = "grid " + chosen.name,
-                                         .what = wide ? "a value does not fit in 32 bits"
-                                                      : "values of type " + shown_name(chosen.grid->valueType()) + " are not supported",
-                                         .expected = "a grid of float, double, int32, int64 of 32 bits, or bool",
-                                         .next = "choose another grid, or convert it"});
+    unsupported_values(path, chosen.name, "a value does not fit in 32 bits");
 }
 
 /// Writes a file whose grids can be found without reading them all; io::File writes to names only.

@@ -52,13 +52,70 @@ TEST(Vdb, WhatIsWrittenComesBack) {
     }
 }
 
+std::string content_of(const std::string& path) {
+    std::ifstream file(path, std::ios::binary);
+    return {std::istreambuf_iterator<char>(file), {}};
+}
+std::string seed(const std::string& name) { return content_of(std::string(ISOATLAS_SOURCE_DIR) + "/tests/fuzz/corpus/openvdb/" + name); }
+
+/// One voxel: whatever a damaged mask makes active, little is read.
+OpenOptions one_voxel(const std::string& dataset) {
+    OpenOptions options;
+    if (!dataset.empty()) options.dataset = dataset;
+    options.box = SampleBox{{0, 0, 0}, {1, 1, 1}};
+    return options;
+}
+
 TEST(Vdb, CutOffFilesAreRefused) {
     const test::TestFolder folder;
     if (!has_openvdb(folder)) GTEST_SKIP() << "built without OpenVDB";
-    std::ifstream file(folder / "v.vdb", std::ios::binary);
-    const std::string content((std::istreambuf_iterator<char>(file)), {});
-    for (std::size_t size = 8; size < content.size(); size += 101)
-        test::expect_user_error(test::failure_of_loading(folder.write("w.vdb", content.substr(0, size))), "cut at " + std::to_string(size));
+    for (const std::string& content : {content_of(folder / "v.vdb"), seed("leaf"), seed("old"), seed("two"), seed("bool")}) {
+        for (std::size_t size = 8; size < content.size(); size += 101)
+            test::expect_user_error(test::failure_of_loading(folder.write("w.vdb", content.substr(0, size))),
+                                    "cut at " + std::to_string(size));
+    }
+    for (const std::string name : {"tiles", "empty"}) test::expect_truncations_refused("w.vdb", seed(name));
+    for (const std::string name : {"instance", "stream", "same"})
+        test::expect_truncations_refused("w.vdb", seed(name), std::string::npos, one_voxel("/density"));
+}
+
+TEST(Vdb, EveryFlippedBitIsRefusedOrRead) {
+    const test::TestFolder folder;
+    if (!has_openvdb(folder)) GTEST_SKIP() << "built without OpenVDB";
+    constexpr std::int64_t kRatio = 8;
+    test::expect_bit_flips_harmless("w.vdb", seed("instance"), 8, std::string::npos, kRatio, one_voxel("/again"));
+    test::expect_bit_flips_harmless("w.vdb", seed("stream"), 8, std::string::npos, kRatio, one_voxel("/other"));
+    for (const std::string name : {"leaf", "zip", "blosc", "bool", "old"}) {  // the last leaf
+        const std::string content = seed(name);
+        test::expect_bit_flips_harmless("w.vdb", content, content.size() - 150, content.size(), kRatio, one_voxel(""));
+    }
+}
+
+/// As Python wrote them, in every form that the format has for values.
+TEST(Vdb, FormsOfValues) {
+    const test::TestFolder folder;
+    if (!has_openvdb(folder)) GTEST_SKIP() << "built without OpenVDB";
+    // The voxels of number 9 and 77 in a leaf are active; another one of the first ten has the value that is not.
+    const auto samples = [&](const std::string& name) { return load_volume(folder.write(name + ".vdb", seed(name))); };
+    const std::vector<std::tuple<std::string, ValueType, double, double>> files = {
+        {"leaf", ValueType::f32, 1, 2}, {"zip", ValueType::f64, 10, 78}, {"blosc", ValueType::i32, 1, 2},
+        {"half", ValueType::f32, 1, 2}, {"bool", ValueType::u8, 1, 1},   {"old", ValueType::f32, 5, 5}};
+    for (const auto& [name, type, first, last] : files) {
+        SCOPED_TRACE(name);
+        const Volume volume = samples(name);
+        EXPECT_EQ(volume.info.type, type);
+        EXPECT_EQ(volume.info.extent, (Extent{3, {2, 1, name == "bool" ? 13 : 5}}));
+        EXPECT_EQ(volume.value(0), first);
+        EXPECT_EQ(volume.value(volume.info.extent.voxels() - 1), last);
+    }
+    const auto instance = open_volume(folder.write("i.vdb", seed("instance")), one_voxel("/again"));
+    EXPECT_EQ(test::read_all(*instance, 1), std::string("\0\0\x80\x3f", 4));
+    EXPECT_EQ(instance->info().geometry.origin, (Vec3{1, 2, 3}));
+    expect_helpful(test::failure_of_loading(folder.write("v.vdb", seed("vectors")) + ":/v"), ErrorKind::unsupported, "vec3s");
+    expect_helpful(test::failure_of_loading(folder.write("f.vdb", seed("frustum"))), ErrorKind::unsupported, "frustum");
+    std::string newer = seed("leaf");
+    newer[8] = static_cast<char>(newer[8] + 1);
+    expect_helpful(test::failure_of_loading(folder.write("n.vdb", newer)), ErrorKind::unsupported, "version 225");
 }
 
 TEST(Vdb, NamesOfGrids) {
