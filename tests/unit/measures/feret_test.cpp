@@ -83,14 +83,15 @@ RC_GTEST_PROP(Feret, EqualsBruteForce, ()) {
             longest = std::max(longest, norm(differences.back()));
         }
     }
-    double narrowest = longest;
+    constexpr double kNone = 1e9;
+    double narrowest = kNone;
     for (const Vec3& p : differences) {
         for (const Vec3& q : differences) {
             const Vec3 across = cross(p, q);
             if (norm(across) > 1e-9) narrowest = std::min(narrowest, width(points, across));
         }
     }
-    RC_PRE(narrowest > 1e-6);  // not flat
+    RC_PRE(narrowest > 1e-6 && narrowest < kNone);  // not flat, nor on a line
     const FeretDiameters feret = feret_diameters(hull, 3);
     RC_ASSERT(std::abs(feret.max - longest) < 1e-12 * longest);
     RC_ASSERT(std::abs(feret.min - narrowest) < 1e-9);
