@@ -67,9 +67,7 @@ void for_isovalue_members(const std::string& group, Visit&& visit) {
 template <class T>
 PackedArray owned(const char* name, const char* type, std::vector<T> numbers) {
     const auto held = std::make_shared<std::vector<T>>(std::move(numbers));
-    PackedArray array = packed<T>(name, type, *held);
-    array.feed = [held, feed = std::move(array.feed)](const ByteSink& put) { feed(put); };
-    return array;
+    return keeping(packed<T>(name, type, *held), held);
 }
 
 /// Type of a member in the file: ids are numbers.

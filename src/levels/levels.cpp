@@ -56,9 +56,7 @@ std::vector<PackedArray> arrays_of(const std::vector<LevelsKey>& keys) {
     const auto column = [&]<class T>(const char* name, const char* type, T, const auto& value) {
         const auto numbers = std::make_shared<std::vector<T>>();
         for (const LevelsKey& key : keys) numbers->push_back(static_cast<T>(value(key)));
-        PackedArray array = packed<T>(std::string(kKeys) + name, type, *numbers);
-        array.feed = [numbers, feed = std::move(array.feed)](const ByteSink& put) { feed(put); };
-        return array;
+        return keeping(packed<T>(std::string(kKeys) + name, type, *numbers), numbers);
     };
     std::vector<PackedArray> arrays;
     arrays.push_back(column("voxel", "int64", std::int64_t{}, [](const LevelsKey& key) { return key.voxel; }));

@@ -14,9 +14,7 @@ namespace {
 template <class T>
 PackedArray owned(std::string name, std::string type, std::vector<T> numbers) {
     const auto held = std::make_shared<std::vector<T>>(std::move(numbers));
-    PackedArray array = packed_chunks<T>(std::move(name), std::move(type), *held);
-    array.feed = [held, feed = std::move(array.feed)](const ByteSink& put) { feed(put); };
-    return array;
+    return keeping(packed_chunks<T>(std::move(name), std::move(type), *held), held);
 }
 
 /// The numbers of an array of small arrays, in a row.

@@ -12,6 +12,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 
 #include "isoatlas/context.h"
@@ -28,8 +29,9 @@ struct WireOptions {
 struct WireMesh {
     std::string bytes;
     std::int64_t points = 0, triangles = 0;
-    bool coarse = false;           ///< triangles were left out
-    std::size_t without_area = 0;  ///< WireOptions::distinct: triangles without area nevertheless
+    bool coarse = false;               ///< triangles were left out
+    std::optional<double> distance{};  ///< of a level of detail from the exact surface, at most, in voxels; the caller sets it
+    std::size_t without_area = 0;      ///< WireOptions::distinct: triangles without area nevertheless
 };
 
 /// surface: of a 3D volume, with normals. Throws Error: resource (more than 2^31 points or 2^30 triangles), cancelled.

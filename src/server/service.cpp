@@ -7,6 +7,7 @@
 
 #include "base/cancel.h"
 #include "base/memory_limit.h"
+#include "formats/common/byte_writer.h"
 #include "isoatlas/error.h"
 #include "isoatlas/isovalue.h"
 #include "isoatlas/output.h"
@@ -304,6 +305,7 @@ Response Service::surface_answer(const Request& request) {
     Response answer = file_answer(std::move(mesh.bytes));
     answer.headers["X-Triangles"] = std::to_string(mesh.triangles);
     answer.headers["X-Coarse"] = mesh.coarse ? "1" : "0";
+    if (mesh.distance) answer.headers["X-Distance"] = number_text(*mesh.distance);
     return answer;
 }
 

@@ -43,7 +43,9 @@ WireMesh Service::mesh_of(const Atlas& atlas, double tau, const SurfaceOptions& 
     const std::optional<SimplifiedSurface> level = levels_.at_most(atlas, options, tau, max);
     if (!level) return wire(extract(atlas, tau, options, context), max, context);
     WireMesh mesh = wire(level->surface, max, context);
-    mesh.coarse = mesh.coarse || level->distance > 0;
+    if (mesh.coarse) return mesh;  // reduced once more, without a promise
+    mesh.coarse = level->distance > 0;
+    mesh.distance = level->distance;
     return mesh;
 }
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <functional>
+#include <memory>
 #include <span>
 #include <string>
 #include <vector>
@@ -51,6 +52,12 @@ template <class T>
 [[nodiscard]] PackedArray packed_chunks(std::string name, std::string type, std::span<const T> numbers) {
     PackedArray array = packed_chunks<T>(std::move(name), std::move(type), numbers.size());
     array.feed = [numbers](const ByteSink& put) { put(std::as_bytes(numbers)); };
+    return array;
+}
+
+/// The array with what its feed reads.
+[[nodiscard]] inline PackedArray keeping(PackedArray array, std::shared_ptr<const void> numbers) {
+    array.feed = [numbers = std::move(numbers), feed = std::move(array.feed)](const ByteSink& put) { feed(put); };
     return array;
 }
 

@@ -38,6 +38,17 @@ class Levels(CliTest):
         self.assertEqual((self.folder / "field.atlas.lod").read_bytes(), before)
         self.assertIn("levels of 3 surfaces", self.run_ok("levels", "field.atlas", "--object", "2").stdout)
 
+    def test_verify_proves_levels(self):
+        self.made("--top", "2")
+        names = [check["name"] for check in self.run_json("verify", "field.atlas", "--levels", "1")["checks"]]
+        self.assertEqual(names[-2:], ["levels_hold_exact_surfaces", "levels_keep_topology"])
+        self.run_ok("build", "field.nrrd", "-o", "again.atlas", "--tunnel-height", "5%")
+        lod = self.folder / "again.atlas.lod"
+        lod.write_bytes((self.folder / "field.atlas.lod").read_bytes())
+        checks = self.run_json("verify", "again.atlas", "--levels", "1", code=7)["checks"]
+        self.assertEqual((checks[-1]["name"], checks[-1]["holds"]), ("levels_can_be_read", False))
+        lod.unlink()
+
     def test_refusals(self):
         self.run_error(2, "levels", "field.nrrd", says="beside a store", next_says="isoatlas build")
         self.run_ok("levels", "other.atlas", "--top", "1", "-o", "other.lod")
@@ -52,7 +63,7 @@ class Levels(CliTest):
             found = self.objects["objects"][0]
             status, headers, body = viewer.ask(f"/api/surface?tau={found['best_tau']!r}&object=v{found['id']}&max=300")
             self.assertEqual(status, 200, body)
-            return int(headers["X-Triangles"]), headers["X-Coarse"]
+            return int(headers["X-Triangles"]), headers["X-Coarse"], float(headers.get("X-Distance", -1))
         finally:
             viewer.stop()
 
@@ -61,13 +72,14 @@ class Levels(CliTest):
         lod = self.folder / "field.atlas.lod"
         lod.unlink(missing_ok=True)
         with FileServer(self.folder) as server:
-            _, coarse = self.first_surface(f"{server.address}/field.atlas")
-            self.assertEqual(coarse, "1")
+            _, coarse, distance = self.first_surface(f"{server.address}/field.atlas")
+            self.assertEqual((coarse, distance), ("1", -1))
             without = server.bytes
         self.run_ok("levels", "field.atlas", "--top", "1")
         with FileServer(self.folder) as server:
-            triangles, coarse = self.first_surface(f"{server.address}/field.atlas")
+            triangles, coarse, distance = self.first_surface(f"{server.address}/field.atlas")
             self.assertEqual(coarse, "1")
+            self.assertGreater(distance, 0)
             self.assertLess(server.bytes, without)
         listed, = self.made("--top", "1")
         self.assertLessEqual(triangles, max(300, listed["surfaces"][0]["coarsest"]))

@@ -9,6 +9,7 @@
 #include "isoatlas/atlas.h"
 #include "isoatlas/dump.h"
 #include "isoatlas/verify.h"
+#include "levels/stored_clusters.h"
 #include "store/container.h"
 
 namespace {
@@ -126,6 +127,11 @@ void query(std::span<const std::byte> content) {
         if (atlas.info().extent.voxels() <= 1 << 12) (void)isoatlas::verify_atlas(atlas, {.levels = 1}, context);
     });
     ask(dump);
+    ask([&] {
+        const isoatlas::Container file("fuzz");
+        const isoatlas::StoredClusters clusters(file, isoatlas::surface_prefix(0), {});
+        for (const double distance : {1.0, -1.0}) (void)isoatlas::surface_within(clusters.read(distance), std::max(0.0, distance));
+    });
 }
 
 }  // namespace

@@ -17,6 +17,8 @@ class Golden(unittest.TestCase):
                 self.assertEqual(answers(store), json.loads(store.with_suffix(".json").read_text()))
                 told = run("verify", store, "--full", "--levels", "2")
                 self.assertEqual([check for check in told["checks"] if not check["holds"]], [])
+                has_levels = any(check["name"] == "levels_keep_topology" for check in told["checks"])
+                self.assertEqual(has_levels, pathlib.Path(f"{store}.lod").exists())
 
 
 if __name__ == "__main__":

@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::int64_t kUsual = 8;  ///< objects
 
-std::vector<ChosenObject> chosen_objects(const Arguments& arguments, Sides& sides) {
+std::vector<ChosenObject> prepared_objects(const Arguments& arguments, Sides& sides) {
     std::vector<ChosenObject> chosen = sides.find(arguments.objects);
     if (!arguments.objects.empty() && arguments.top == 0) return chosen;
     for (ChosenObject& object : sides.first(arguments.top > 0 ? arguments.top : kUsual)) chosen.push_back(std::move(object));
@@ -83,7 +83,7 @@ int run_levels(const Arguments& arguments, Terminal& terminal) {
                                        .what = "levels of detail lie beside a store, and this is a volume file",
                                        .next = "isoatlas build " + shell_word(arguments.file) + " -o FILE.atlas, then its levels"});
     }
-    const std::vector<ChosenObject> chosen = chosen_objects(arguments, sides);
+    const std::vector<ChosenObject> chosen = prepared_objects(arguments, sides);
     std::vector<File> files;
     for (const Polarity polarity : {Polarity::high, Polarity::low}) {
         const bool is_asked = std::ranges::any_of(chosen, [&](const ChosenObject& object) { return object.polarity == polarity; });

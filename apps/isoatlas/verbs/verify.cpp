@@ -1,5 +1,6 @@
 // isoatlas verify: the guarantees, one by one; exit code 7 when one does not hold.
 #include <algorithm>
+#include <filesystem>
 
 #include <fmt/format.h>
 
@@ -60,8 +61,25 @@ std::vector<CheckResult> check_mesh(const Arguments& arguments, Json& head) {
     return verify_mesh(mesh);
 }
 
+/// Of the levels of detail beside the store, if there are any.
+std::vector<CheckResult> check_levels(const std::string& store, Source& source) {
+    const std::string path = levels_path(store, polarity_of(source.info()));
+    std::error_code none;
+    if (!std::filesystem::exists(path, none)) return {};
+    try {
+        return verify_levels(Levels(path, source.atlas()), source.atlas(), source.context());
+    } catch (const Error& error) {
+        if (error.kind() != ErrorKind::input) throw;
+        return {{"levels_can_be_read", false, error.what()}};
+    }
+}
+
 std::vector<CheckResult> check_volume(const Arguments& arguments, Source& source, const AtlasVerifyOptions& options) {
-    if (source.is_store()) return verify_atlas(source.atlas(), options, source.context());
+    if (source.is_store()) {
+        std::vector<CheckResult> checks = verify_atlas(source.atlas(), options, source.context());
+        std::ranges::move(check_levels(arguments.file, source), std::back_inserter(checks));
+        return checks;
+    }
     const VerifyOptions of_volume{.levels = arguments.levels, .interpolant = source.interpolant(), .tunnel_height = source.tunnel_height()};
     return verify_volume(source.volume(), of_volume, source.context());
 }

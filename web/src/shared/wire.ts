@@ -14,6 +14,8 @@ export interface Mesh {
   triangles: number;
   /** simplified: it has fewer triangles than the surface */
   coarse: boolean;
+  /** of a level of detail: its topology is exact, and it is at most so many voxels from the surface */
+  within?: number;
   /** squares of points: not closed where it is cut */
   isOpen: boolean;
   /** encoded size, before compression by HTTP */

@@ -206,7 +206,9 @@ export class Api {
     ++this.surfaces;
     try {
       const response = await this.request(`/api/surface?${query}`, channel);
-      return await decodeMesh(await response.arrayBuffer(), response.headers.get("X-Coarse") === "1");
+      const mesh = await decodeMesh(await response.arrayBuffer(), response.headers.get("X-Coarse") === "1");
+      const distance = response.headers.get("X-Distance");
+      return distance === null ? mesh : { ...mesh, within: Number(distance) };
     } finally {
       --this.surfaces;
     }

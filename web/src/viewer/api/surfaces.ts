@@ -24,13 +24,15 @@ export interface LoadState {
   points: number;
   bytes: number;
   coarse: boolean;
+  /** coarse: with the topology of the exact surface, at most so many voxels from it; null: without a promise */
+  within: number | null;
   /** of walls of cavities: their number; null: not counted */
   walls: number | null;
   waiting: boolean;
   error: string;
 }
 
-const NONE: LoadState = { key: "", triangles: 0, points: 0, bytes: 0, coarse: false, walls: null, waiting: false, error: "" };
+const NONE: LoadState = { key: "", triangles: 0, points: 0, bytes: 0, coarse: false, within: null, walls: null, waiting: false, error: "" };
 
 class Channel {
   key = "";
@@ -133,6 +135,7 @@ export class Surfaces {
           points: mesh.isOpen ? mesh.triangles / 2 : 0,
           bytes: mesh.bytes,
           coarse: !isLast,
+          within: mesh.within ?? null,
           walls: request.walls === "cavities" && isLast && !mesh.isOpen ? countComponents(mesh.corners) : null,
           waiting: false,
           error: "",

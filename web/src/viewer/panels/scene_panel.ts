@@ -202,6 +202,10 @@ export function noteOf(shown: Shown, loadState: LoadState): string {
   else if (shown.walls === "cavities" && loadState.triangles === 0) parts.push("no cavities");
   else if (loadState.walls) parts.push(`${plural(loadState.walls, "cavity", "cavities")}, ${count(loadState.triangles)} triangles`);
   else if (loadState.points > 0) parts.push(`${count(loadState.points)} points`);
-  else if (loadState.triangles > 0) parts.push(`${count(loadState.triangles)} triangles${loadState.coarse ? ", coarse" : ""}`);
+  else if (loadState.triangles > 0) parts.push(`${count(loadState.triangles)} triangles${loadState.coarse ? coarseWords(loadState) : ""}`);
   return parts.join(", ");
+}
+
+function coarseWords({ within }: LoadState): string {
+  return within === null ? ", coarse" : `, coarse: exact topology, within ${value(within)} voxels`;
 }
