@@ -37,8 +37,8 @@ struct PreparedLevels {
 /// Makes the levels of surfaces of a store, one after the other, each kept in the folder PATH.build as soon as it is finished, so that an
 /// interrupted call goes on where it ended; then writes the file: what it held before and the new ones. Returns what it holds. Of the same
 /// surfaces in the same order the same bytes, for any number of threads and interruptions. Throws Error: as Atlas::extract() and
-/// make_clusters(), input (the file is damaged, or of another store), resource, cancelled. Cost: some 150 us a triangle on one processor;
-/// memory: that of the largest surface, some 500 bytes a triangle.
+/// make_clusters(), input (the file is damaged, or of another store), unsupported (a 2D image), resource, cancelled. Cost: some 150 us a
+/// triangle on one processor; memory: that of the largest surface, some 500 bytes a triangle.
 std::vector<PreparedLevels> make_levels(const Atlas& atlas, const std::string& path, std::span<const LevelsKey> surfaces,
                                         const Context& context = {});
 

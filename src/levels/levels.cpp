@@ -169,6 +169,11 @@ struct Levels::Data {
 std::vector<PreparedLevels> make_levels(const Atlas& atlas, const std::string& path, std::span<const LevelsKey> surfaces,
                                         const Context& context) {
     const EnvironmentScope scope(context);
+    if (atlas.info().extent.rank != 3) {
+        throw Error(ErrorKind::unsupported, {.file = AtlasAccess::store(atlas).path(),
+                                             .what = "the contours of a 2D image have no levels of detail",
+                                             .next = "extract writes them as they are"});
+    }
     BuildFolder folder(path, false);
     std::unique_ptr<const Container> before;
     std::vector<LevelsKey> keys;

@@ -43,7 +43,7 @@ std::optional<SimplifiedSurface> StoreLevels::at_most(const Atlas& atlas, const 
         if (is_there(path)) side.levels.emplace(path, atlas);
     });
     const std::int64_t found = side.levels ? side.levels->find(*key) : -1;
-    if (found < 0) return std::nullopt;
+    if (found < 0 || side.levels->surfaces()[static_cast<std::size_t>(found)].triangles <= triangles) return std::nullopt;
     return side.levels->at_most(found, triangles);
 }
 

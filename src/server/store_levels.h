@@ -11,8 +11,8 @@ namespace isoatlas {
 
 class StoreLevels {
 public:
-    /// The surface with at most so many triangles, or the coarsest one; nothing: there are no levels of it. Looks for the file once. Throws
-    /// Error{input} for a damaged file, or one of another store.
+    /// The level with at most so many triangles, or the coarsest one; nothing: there are no levels of the surface, or it has no more
+    /// triangles. Looks for the file once. Throws Error{input} for a damaged file, or one of another store.
     [[nodiscard]] std::optional<SimplifiedSurface> at_most(const Atlas& atlas, const SurfaceOptions& options, double tau,
                                                            std::int64_t triangles);
 

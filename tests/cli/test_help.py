@@ -10,7 +10,7 @@ import subprocess
 from harness import CLI, CliTest, main
 
 SOURCE = pathlib.Path(os.environ["ISOATLAS_SOURCE"])
-VERBS = ["atlas", "view", "ask", "info", "objects", "measure", "extract", "render", "animate", "tree", "label", "build", "convert", "handles", "spectrum", "table131", "compare", "dump", "phantom",
+VERBS = ["atlas", "view", "ask", "info", "objects", "measure", "extract", "render", "animate", "tree", "label", "build", "levels", "convert", "handles", "spectrum", "table131", "compare", "dump", "phantom",
          "verify", "completion", "manual", "name"]
 
 

@@ -55,6 +55,10 @@ class Levels(CliTest):
         self.run_error(3, "levels", "field.atlas", "--top", "1", "-o", "other.lod", says="of another store")
         self.run_error(3, "info", "other.lod", says="levels of detail of surfaces, not a store", next_says="without .lod")
         self.run_error(6, "levels", "field.atlas", "--object", "9999")
+        samples = " ".join(str(9 * (2 < x < 6 and 2 < y < 6)) for y in range(9) for x in range(9))
+        (self.folder / "flat.nrrd").write_text(f"NRRD0004\ntype: uint8\ndimension: 2\nsizes: 9 9\nencoding: ascii\n\n{samples}\n")
+        self.run_ok("build", "flat.nrrd", "-o", "flat.atlas")
+        self.run_error(4, "levels", "flat.atlas", "--object", "1", says="2D image", next_says="extract")
 
     def first_surface(self, store):
         """Its answer, and its triangles."""
