@@ -35,9 +35,9 @@ std::int64_t whole_voxel(const StoredWindow& window, std::int64_t voxel) {
     return window.window.whole.index(window.info.extent.voxel(voxel) + window.window.origin);
 }
 
-/// A store, and not the levels of detail of one.
-const Container& require_samples(const Container& store) {
-    if (!store.contents().has_array("surfaces/tau")) return store;
+/// Of a store, and not of its levels of detail.
+std::unique_ptr<StoredSamples> samples_of(const Container& store, std::int64_t cache_bytes) {
+    if (!store.contents().has_array("surfaces/tau")) return stored_samples(store, cache_bytes);
     throw Error(ErrorKind::input, {.file = store.path(),
                                    .what = "these are levels of detail of surfaces, not a store",
                                    .next = "open the store beside it: the same name without .lod"});
@@ -63,7 +63,7 @@ struct Atlas::Data {
     IoCounters reads;
 
     Data(const std::string& path, const AtlasOptions& options)
-        : store(path, options.polarity, options.corrections), samples(stored_samples(require_samples(store), options.cache_bytes)) {}
+        : store(path, options.polarity, options.corrections), samples(samples_of(store, options.cache_bytes)) {}
 
     [[nodiscard]] std::shared_ptr<const AtlasTrees> shared_trees() const {
         return trees.get([this] { return std::make_shared<const AtlasTrees>(analysis_of(store, {})); });
