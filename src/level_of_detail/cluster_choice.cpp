@@ -1,7 +1,8 @@
 // Surfaces of a hierarchy: the clusters at the border between groups that are chosen and groups that are not.
+#include "level_of_detail/cluster_choice.h"
+
 #include <algorithm>
 
-#include "isoatlas/cluster_hierarchy.h"
 #include "level_of_detail/without_points.h"
 
 namespace isoatlas {
@@ -65,6 +66,10 @@ std::int64_t triangles_of(const ClusterHierarchy& hierarchy, const std::vector<s
 
 }  // namespace
 
+std::int64_t triangles_within(const ClusterHierarchy& hierarchy, double distance) {
+    return triangles_of(hierarchy, clusters_within(hierarchy, distance));
+}
+
 Surface surface_of_choice(const ClusterHierarchy& hierarchy, const std::function<bool(std::int64_t)>& is_chosen) {
     return part_of(hierarchy, clusters_of_choice(hierarchy, is_chosen));
 }
@@ -80,7 +85,7 @@ std::vector<SimplifiedSurface> coarser_surfaces(const ClusterHierarchy& hierarch
     const auto doubled = std::ranges::unique(distances);
     distances.erase(doubled.begin(), doubled.end());
     std::vector<SimplifiedSurface> coarser;
-    std::int64_t triangles = triangles_of(hierarchy, clusters_within(hierarchy, 0));
+    std::int64_t triangles = triangles_within(hierarchy, 0);
     for (const double distance : distances) {
         if (static_cast<std::int64_t>(coarser.size()) == most) break;
         const std::vector<std::int64_t> clusters = clusters_within(hierarchy, distance);

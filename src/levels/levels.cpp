@@ -14,6 +14,7 @@
 #include "isoatlas/error.h"
 #include "isoatlas/object_names.h"
 #include "isoatlas/polarity.h"
+#include "level_of_detail/cluster_choice.h"
 #include "levels/stored_clusters.h"
 
 namespace isoatlas {
@@ -155,7 +156,7 @@ struct Levels::Data {
             const StoredClusters& of = clusters.emplace_back(file, surface_prefix(i), surface_of(atlas, keys[i].tau));
             double distance = 0;
             for (const ClusterGroup& group : of.tables().groups) distance = std::max(distance, group.distance);
-            surfaces.push_back({keys[i], of.triangles_within(0), of.triangles_within(distance), distance});
+            surfaces.push_back({keys[i], triangles_within(of.tables(), 0), triangles_within(of.tables(), distance), distance});
         }
     }
     [[nodiscard]] const StoredClusters& at(std::int64_t surface) const {
@@ -234,7 +235,7 @@ SimplifiedSurface Levels::at_most(std::int64_t surface, std::int64_t triangles) 
     std::vector<double> distances{0};
     for (const ClusterGroup& group : clusters.tables().groups) distances.push_back(group.distance);
     std::ranges::sort(distances);
-    const auto fits = [&](double distance) { return clusters.triangles_within(distance) <= triangles; };
+    const auto fits = [&](double distance) { return triangles_within(clusters.tables(), distance) <= triangles; };
     const auto found = std::ranges::partition_point(distances, [&](double distance) { return !fits(distance); });
     return within(surface, found == distances.end() ? distances.back() : *found);
 }

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
-#include <numeric>
 
 #include "isoatlas/error.h"
 #include "level_of_detail/cluster_order.h"
@@ -126,22 +125,6 @@ void StoredClusters::damaged(const char* what) const {
                                    .where = prefix_.substr(0, prefix_.size() - 1),
                                    .what = what,
                                    .next = "the levels of detail are damaged: delete the file and make them again"});
-}
-
-std::int64_t StoredClusters::all_triangles() const {
-    const auto add = [](std::int64_t sum, const Cluster& cluster) { return sum + cluster.triangles; };
-    return std::accumulate(tables_.clusters.begin(), tables_.clusters.end(), std::int64_t{0}, add);
-}
-
-std::int64_t StoredClusters::triangles_within(double distance) const {
-    const auto is_in = [&](std::int64_t group) {
-        return group >= 0 && tables_.groups[static_cast<std::size_t>(group)].distance <= distance;
-    };
-    std::int64_t triangles = 0;
-    for (const Cluster& cluster : tables_.clusters) {
-        if ((cluster.made_by < 0 || is_in(cluster.made_by)) && !is_in(cluster.replaced_by)) triangles += cluster.triangles;
-    }
-    return triangles;
 }
 
 ClusterHierarchy StoredClusters::read(double distance) const {

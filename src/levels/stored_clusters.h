@@ -24,9 +24,6 @@ public:
     StoredClusters(const Container& file, std::string prefix, Surface like);
 
     [[nodiscard]] const ClusterHierarchy& tables() const { return tables_; }  ///< without points and triangles
-    /// Triangles of the surface that chooses every group of at most this distance.
-    [[nodiscard]] std::int64_t triangles_within(double distance) const;
-    [[nodiscard]] std::int64_t all_triangles() const;  ///< of all clusters
     /// With the points and triangles of the surfaces that choose every group of at most this distance. Throws Error{input} for damage.
     [[nodiscard]] ClusterHierarchy read(double distance) const;
 

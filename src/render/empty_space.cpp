@@ -4,6 +4,7 @@
 #include <cstring>
 
 #include "base/parallel.h"
+#include "base/sample_types.h"
 #include "base/target_clones.h"
 
 namespace isoatlas {
@@ -31,14 +32,9 @@ ISOATLAS_TARGET_CLONES void RowExtremes<T>::take(std::span<const T> row) {
     for (; i < row.size(); ++i) low[i] = std::min(low[i], row[i]), high[i] = std::max(high[i], row[i]);
 }
 
-template struct RowExtremes<std::uint8_t>;
-template struct RowExtremes<std::int8_t>;
-template struct RowExtremes<std::uint16_t>;
-template struct RowExtremes<std::int16_t>;
-template struct RowExtremes<std::uint32_t>;
-template struct RowExtremes<std::int32_t>;
-template struct RowExtremes<float>;
-template struct RowExtremes<double>;
+#define ISOATLAS_INSTANTIATE(T) template struct RowExtremes<T>;
+ISOATLAS_FOR_SAMPLE_TYPES(ISOATLAS_INSTANTIATE)
+#undef ISOATLAS_INSTANTIATE
 
 template <class T>
 void find_row(std::span<const T> samples, const Extent& extent, std::int64_t row, BlockRanges& blocks) {

@@ -4,6 +4,7 @@
 #include <cstring>
 #include <type_traits>
 
+#include "base/sample_types.h"
 #include "base/target_clones.h"
 
 namespace isoatlas {
@@ -213,13 +214,8 @@ ISOATLAS_TARGET_CLONES void Trilinear<T>::fall(const Vec3& place, Vec3& differen
     for (int a = 0; a < 3; ++a) difference[a] = 0.5 * static_cast<double>(found[2 * a] - found[2 * a + 1]);
 }
 
-template class Trilinear<std::uint8_t>;
-template class Trilinear<std::int8_t>;
-template class Trilinear<std::uint16_t>;
-template class Trilinear<std::int16_t>;
-template class Trilinear<std::uint32_t>;
-template class Trilinear<std::int32_t>;
-template class Trilinear<float>;
-template class Trilinear<double>;
+#define ISOATLAS_INSTANTIATE(T) template class Trilinear<T>;
+ISOATLAS_FOR_SAMPLE_TYPES(ISOATLAS_INSTANTIATE)
+#undef ISOATLAS_INSTANTIATE
 
 }  // namespace isoatlas
