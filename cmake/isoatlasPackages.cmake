@@ -44,6 +44,7 @@ macro(isoatlas_find_packages library)
     isoatlas_import(zstd libzstd-dev zstd.h zstd)
     isoatlas_import(lz4 liblz4-dev lz4.h lz4)
     isoatlas_import(bzip2 libbz2-dev bzlib.h bz2)
+    isoatlas_import(draco libdraco-dev draco/mesh/mesh.h draco)  # its package file names no target
     if(ISOATLAS_DICOM)  # its own package file wants the tools of GDCM, which libgdcm-dev does not bring
       isoatlas_import(gdcm_files libgdcm-dev gdcmImage.h gdcmMSFF)
       isoatlas_import(gdcm_elements libgdcm-dev gdcmImage.h gdcmDSED)

@@ -19,7 +19,7 @@ set(CPACK_DEBIAN_RUNTIME_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_RUNTIME_PACKAGE_SUGGESTS "ffmpeg, xdg-utils")
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME libisoatlas-dev)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
-set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS "libtbb-dev, zlib1g-dev, libtiff-dev, libpng-dev, libjpeg-dev, libpugixml-dev, libhdf5-dev, libblosc-dev, liblz4-dev, libbz2-dev, libcurl4-openssl-dev, libdeflate-dev, \
+set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS "libtbb-dev, zlib1g-dev, libtiff-dev, libpng-dev, libjpeg-dev, libpugixml-dev, libhdf5-dev, libblosc-dev, liblz4-dev, libbz2-dev, libdraco-dev, libcurl4-openssl-dev, libdeflate-dev, \
 libqhull-dev, libembree-dev, libwebp-dev, libmeshoptimizer-dev, libzstd-dev")
 if(ISOATLAS_DICOM)
   string(APPEND CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS ", libgdcm-dev")

@@ -26,6 +26,7 @@ demo|libopenvdb-dev|OpenVDB files
 demo|libblosc-dev|compressed chunks of Zarr arrays
 demo|liblz4-dev|the same
 demo|libbz2-dev|the same, and of HDF5, bzip2 in NRRD files
+demo|libdraco-dev|meshes for Neuroglancer
 demo|libcurl4-openssl-dev|files on web servers
 demo|libxxhash-dev|checksums of stores
 demo|libdeflate-dev|compressed trees in stores, PNG files

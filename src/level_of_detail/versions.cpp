@@ -50,7 +50,7 @@ std::vector<std::size_t> split_in_clusters(Triangles& triangles, std::int64_t ma
     return begins;
 }
 
-Versions::Versions(ClusterHierarchy& hierarchy, const SurfaceFrame& frame, const ClusterOptions& options)
+Versions::Versions(ClusterHierarchy& hierarchy, const SurfaceFrame& frame, const ClusterOptions& options, std::span<const Triangles> parts)
     : hierarchy_(hierarchy), frame_(frame), max_triangles_(options.triangles), scaled_(frame.scaled().begin(), frame.scaled().end()) {
     Surface& surface = hierarchy_.surface;
     Array<std::uint16_t> faces = frame.faces();
@@ -63,9 +63,8 @@ Versions::Versions(ClusterHierarchy& hierarchy, const SurfaceFrame& frame, const
     const double cell =
         std::sqrt(static_cast<double>(options.triangles * options.clusters) * all_area / static_cast<double>(surface.triangles.size()));
     places_.clear(all, std::max(cell, frame.step()));
-    Triangles triangles(surface.triangles.begin(), surface.triangles.end());
     surface.triangles.clear();
-    add_clusters(std::move(triangles), -1);
+    for (const Triangles& part : parts) add_clusters(part, -1);
 }
 
 void Versions::add_clusters(Triangles triangles, std::int64_t made_by) {

@@ -32,8 +32,8 @@ struct Replacement {
 
 class Versions {
 public:
-    /// The exact surface in clusters, its points marked with the faces of the volume and the rims.
-    Versions(ClusterHierarchy& hierarchy, const SurfaceFrame& frame, const ClusterOptions& options);
+    /// The exact surface in clusters, none of triangles of several parts; its points marked with the faces of the volume and the rims.
+    Versions(ClusterHierarchy& hierarchy, const SurfaceFrame& frame, const ClusterOptions& options, std::span<const Triangles> parts);
 
     [[nodiscard]] std::span<const TriangleCorners> triangles_of(const Cluster& cluster) const {
         return std::span(hierarchy_.surface.triangles)

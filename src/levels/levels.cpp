@@ -16,6 +16,7 @@
 #include "isoatlas/polarity.h"
 #include "level_of_detail/cluster_choice.h"
 #include "levels/stored_clusters.h"
+#include "mesh/extract_level.h"
 
 namespace isoatlas {
 namespace {
@@ -27,15 +28,10 @@ constexpr Phase kMake = only_phase("make levels");
     throw Error(ErrorKind::input, {.file = path, .what = what, .next = next});
 }
 
-/// The surface that the levels of a key are of, without points and triangles; as Atlas::extract() describes it.
+/// The surface that the levels of a key are of, without points and triangles.
 Surface surface_of(const Atlas& atlas, double tau) {
-    const VolumeInfo& info = atlas.info();
     Surface surface;
-    surface.tau = tau, surface.reported_tau = info.calibration.reported(tau);
-    surface.space = info.geometry.space, surface.unit = info.geometry.unit;
-    surface.interpolant = atlas.interpolant(), surface.tunnel_height = atlas.tunnel_height();
-    surface.reported_tunnel_height = info.calibration.reported_difference(atlas.tunnel_height());
-    surface.polarity = polarity_of(info);
+    describe(surface, atlas.info(), tau, atlas.interpolant(), atlas.tunnel_height());
     return surface;
 }
 

@@ -185,6 +185,17 @@ bool selects_components(const SurfaceOptions& options) {
     return !options.objects.empty() || !options.contours.empty() || options.shell != ShellChoice::all;
 }
 
+void describe(Surface& surface, const VolumeInfo& info, double tau, Interpolant interpolant, double tunnel_height) {
+    surface.tau = tau;
+    surface.reported_tau = info.calibration.reported(tau);
+    surface.space = info.geometry.space;
+    surface.unit = info.geometry.unit;
+    surface.interpolant = interpolant;
+    surface.tunnel_height = tunnel_height;
+    surface.reported_tunnel_height = info.calibration.reported_difference(tunnel_height);
+    surface.polarity = polarity_of(info);
+}
+
 Surface extract_level(const TauLevel& level, const ExtractOptions& options, const Context& context) {
     Surface surface;
     extract_level(level, options, context, surface);
@@ -193,16 +204,8 @@ Surface extract_level(const TauLevel& level, const ExtractOptions& options, cons
 
 void extract_level(const TauLevel& level, const ExtractOptions& how, const Context& context, Surface& surface, std::int64_t* cells) {
     const SurfaceOptions& options = how.surface;
-    const VolumeInfo& info = level.info();
-    surface.tau = level.tau;
-    surface.reported_tau = info.calibration.reported(level.tau);
-    surface.space = info.geometry.space;
-    surface.unit = info.geometry.unit;
+    describe(surface, level.info(), level.tau, how.interpolant, how.tunnel_height);
     surface.closed = options.boundary == Boundary::closed;
-    surface.interpolant = how.interpolant;
-    surface.tunnel_height = how.tunnel_height;
-    surface.reported_tunnel_height = info.calibration.reported_difference(how.tunnel_height);
-    surface.polarity = polarity_of(info);
 
     const bool selects = selects_components(options);
     std::optional<Components> components;

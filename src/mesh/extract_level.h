@@ -11,6 +11,9 @@ namespace isoatlas {
 [[nodiscard]] bool selects_components(const SurfaceOptions& options);
 [[nodiscard]] inline bool needs_representatives(const SurfaceOptions& options) { return options.ids || selects_components(options); }
 
+/// What a surface says of itself, apart from points and triangles.
+void describe(Surface& surface, const VolumeInfo& info, double tau, Interpolant interpolant, double tunnel_height);
+
 [[nodiscard]] Surface extract_level(const TauLevel& level, const ExtractOptions& options, const Context& context);
 /// Into an existing surface, whose memory is used again. cells: receives the number of active cells, unless it is null.
 void extract_level(const TauLevel& level, const ExtractOptions& options, const Context& context, Surface& surface,

@@ -24,6 +24,7 @@ COUNTERPARTS = {
     "libwebp-dev": ("host", "libwebp-base"), "libboost-dev": ("host", "libboost-headers"), "libmeshoptimizer-dev": ("host", "meshoptimizer"),
     "libzstd-dev": ("host", "zstd"), "libblosc-dev": ("host", "blosc"), "liblz4-dev": ("host", "lz4-c"),
     "libbz2-dev": ("host", "bzip2"),
+    "libdraco-dev": ("host", "draco"),
     "libcli11-dev": ("host", "cli11"), "pybind11-dev": ("host", "pybind11"), "python3-dev": ("host", "python"),
     "python3-numpy": ("host", "numpy"), "libfmt-dev": ("host", "fmt"), "nlohmann-json3-dev": ("host", "nlohmann_json"),
 }

@@ -32,7 +32,7 @@ refuse("a consumer without the libraries" ${configure} -D CMAKE_PROJECT_INCLUDE=
   -B ${WORK}/lacking/build)
 require("the refusal names what is missing" output MATCHES "isoatlas::formats needs ZLIB, TIFF, PNG, JPEG, pugixml, hdf5.h.*isoatlas::store needs")
 require("and what to install, each package once" output MATCHES
-  "apt-get install zlib1g-dev libtiff-dev libpng-dev libjpeg-dev libpugixml-dev libhdf5-dev libblosc-dev libzstd-dev liblz4-dev libbz2-dev (libgdcm-dev )?(libopenvdb-dev libimath-dev )?libdeflate-dev libembree-dev libwebp-dev( |$)")
+  "apt-get install zlib1g-dev libtiff-dev libpng-dev libjpeg-dev libpugixml-dev libhdf5-dev libblosc-dev libzstd-dev liblz4-dev libbz2-dev libdraco-dev (libgdcm-dev )?(libopenvdb-dev libimath-dev )?libdeflate-dev libembree-dev libwebp-dev( |$)")
 
 # The package must survive a move to another machine: no path of this one, neither of folders of ours nor of the system's libraries.
 file(GLOB_RECURSE exported ${prefix}/*.cmake)

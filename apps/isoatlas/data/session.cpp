@@ -34,6 +34,11 @@ std::string lower(std::string text) {
 void check_file_system(const std::string& output) {
     std::error_code ignored;
     if (fs::is_directory(output, ignored)) {
+        if (lower_extension(output) == ".zarr" || lower_extension(output) == kPrecomputedExtension) {
+            throw Error(
+                ErrorKind::resource,
+                {.file = output, .what = "is there already, and a folder is not replaced", .next = "remove it, or choose another name"});
+        }
         throw Error(ErrorKind::usage, {.file = output, .what = "is a folder", .expected = "a file name", .next = "add a file name to it"});
     }
     fs::path folder = fs::path(output).parent_path();

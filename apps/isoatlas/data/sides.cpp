@@ -132,6 +132,15 @@ std::vector<ChosenObject> Sides::first(std::int64_t count) {
     return arguments_.polarity == PolarityChoice::both ? find(first_of_both(count)) : directory().first(count);
 }
 
+std::vector<ChosenObject> Sides::first_or_refuse(std::int64_t count) {
+    std::vector<ChosenObject> found = first(count);
+    if (!found.empty()) return found;
+    throw Error(ErrorKind::not_found,
+                {.file = arguments_.file,
+                 .what = "no object of this volume is above the noise level",
+                 .next = "isoatlas objects " + shell_word(arguments_.file) + " --all lists all: choose with --object, or give --tau"});
+}
+
 void Sides::release_trees() {
     for (const std::unique_ptr<Side>& side : sides_) {
         if (side) side->source.release_trees();

@@ -113,7 +113,7 @@ void extract_options(CLI::App& app, Arguments& arguments, Typed& typed) {
     add_boundary(app, typed);
     add_space(app, typed);
     app.add_flag("--best", arguments.best, "The first object of the table at its best isovalue");
-    add_output(app, arguments, ".ply .stl .obj .vtp .glb .vtkhdf", true);
+    add_output(app, arguments, ".ply .stl .obj .vtp .glb .vtkhdf; .precomputed: a folder for Neuroglancer", true);
 }
 
 void render_options(CLI::App& app, Arguments& arguments, Typed& typed) {

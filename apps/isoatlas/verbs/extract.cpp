@@ -5,6 +5,7 @@
 
 #include "data/chosen_surfaces.h"
 #include "data/coarser.h"
+#include "data/precomputed.h"
 #include "data/print_surface.h"
 #include "data/sides.h"
 #include "data/simplify.h"
@@ -40,8 +41,9 @@ void check_extract_arguments(const Arguments& arguments) {
         throw Error(ErrorKind::usage, {.what = "--min-wall is a limit of what --for-print says", .next = "add --for-print, or omit it"});
     if (arguments.split && !chooses && !has_contours)
         throw Error(ErrorKind::usage, {.what = "--split writes a file for each chosen object", .next = "add --top N or --object REF"});
-    check_output(arguments, {".ply", ".stl", ".obj", ".vtp", ".glb", ".vtkhdf"});
+    check_output(arguments, {".ply", ".stl", ".obj", ".vtp", ".glb", ".vtkhdf", kPrecomputedExtension});
     check_coarser(arguments);
+    check_precomputed(arguments);
 }
 
 /// The objects and contours of the command line; empty: everything at --tau.
@@ -50,12 +52,7 @@ std::vector<ChosenObject> chosen_objects(const Arguments& arguments, Sides& side
     for (ChosenObject& contour : sides.find_contours(arguments.contours, arguments.tau)) chosen.push_back(std::move(contour));
     const std::int64_t top = arguments.top > 0 ? arguments.top : arguments.best && arguments.objects.empty() ? 1 : 0;
     if (top == 0) return chosen;
-    std::vector<ChosenObject> first = sides.first(top);
-    if (first.empty()) {
-        throw Error(ErrorKind::not_found, {.file = arguments.file,
-                                           .what = "no object of this volume is above the noise level",
-                                           .next = "isoatlas objects " + shell_word(arguments.file) + " --all lists all; or give --tau"});
-    }
+    std::vector<ChosenObject> first = sides.first_or_refuse(top);
     const auto is_chosen = [&](const ChosenObject& object) {
         return std::ranges::any_of(chosen, [&](const ChosenObject& other) {
             return !other.is_contour && other.polarity == object.polarity && other.voxel == object.voxel && other.tau == object.tau;
@@ -72,7 +69,8 @@ bool is_one_surface(const Arguments& arguments, const std::vector<ChosenObject>&
     const bool same = std::ranges::all_of(
         chosen, [&](const ChosenObject& object) { return object.polarity == chosen[0].polarity && object.tau == chosen[0].tau; });
     const bool mixed = chosen.size() > 1 && std::ranges::any_of(chosen, &ChosenObject::is_contour) && !arguments.tau;
-    return same && !mixed && !arguments.split && !arguments.output.ends_with(".glb");
+    const bool has_each = arguments.output.ends_with(".glb") || is_precomputed(arguments.output);
+    return same && !mixed && !arguments.split && !has_each;
 }
 
 SurfaceOptions options_of(const Arguments& arguments) {
@@ -131,6 +129,7 @@ struct Written {
     std::optional<Printing> print{};
     std::optional<Simplification> simplification{};
     CoarserVersions coarser{};
+    std::vector<PrecomputedLevel> levels{};
 };
 
 Json part_json(const Written::Part& part) {
@@ -166,6 +165,7 @@ Json to_json(const Arguments& arguments, Source& source, const Written& written)
     json["notes"] = written.notes;
     json["simplification"] = written.simplification ? simplification_json(*written.simplification) : Json(nullptr);
     json["coarser"] = coarser_json(written.coarser);
+    json["levels"] = levels_json(written.levels);
     json["print"] = written.print ? printing_json(*written.print) : Json(nullptr);
     Json& parts = json["surfaces"] = Json::array();
     for (const Written::Part& part : written.parts) parts.push_back(part_json(part));
@@ -200,9 +200,10 @@ void print_text(const Arguments& arguments, Terminal& terminal, Source& source, 
     }
     if (written.simplification) terminal.out() << simplification_text(*written.simplification) << '\n';
     if (written.coarser.most > 0) terminal.out() << coarser_text(written.coarser) << '\n';
+    if (!written.levels.empty()) terminal.out() << levels_text(written.levels) << '\n';
     if (written.print) terminal.out() << printing_text(*written.print) << '\n';
     const std::string file = arguments.split ? written.parts[0].output : arguments.output;
-    if (written.counts.triangles > 0 && written.counts.closed && !file.ends_with(".vtkhdf"))
+    if (written.counts.triangles > 0 && written.counts.closed && !file.ends_with(".vtkhdf") && written.levels.empty())
         terminal.next("isoatlas verify " + shell_word(file));
 }
 
@@ -227,6 +228,11 @@ Written write_one(const Arguments& arguments, Source& source, const std::vector<
     std::vector<SimplifiedSurface> coarser;
     if (arguments.coarser > 0) coarser = coarser_versions(surface, source.info(), written.coarser, source.context());
     if (chosen.size() == 1) written.parts.push_back({chosen[0], written.counts, surface.reported_tau, arguments.output});
+    if (is_precomputed(arguments.output)) {
+        const NamedSurface all{std::move(surface), fmt::format("isovalue {:g}", written.reported_tau), {}, {}};
+        written.levels = write_precomputed(arguments.output, std::span(&all, 1), source.info(), source.context());
+        return written;
+    }
     const WritingGuard guard;
     written.warnings = write_surface(arguments.output, surface, coarser, file_options(arguments));
     return written;
@@ -272,6 +278,10 @@ Written write_several(const Arguments& arguments, Sides& sides, const std::vecto
         together.clear();
     }
     if (arguments.split) return written;
+    if (is_precomputed(arguments.output)) {
+        written.levels = write_precomputed(arguments.output, together, sides.main().info(), sides.main().context());
+        return written;
+    }
     const WritingGuard guard;
     keep(write_surfaces(arguments.output, together, file_options(arguments)));
     return written;
@@ -281,7 +291,7 @@ Written write_several(const Arguments& arguments, Sides& sides, const std::vecto
 
 int run_extract(const Arguments& arguments, Terminal& terminal) {
     if (arguments.inputs.are_labels && !arguments.tau && !arguments.best) {
-        check_output(arguments, {".ply", ".stl", ".obj", ".vtp", ".glb", ".vtkhdf"});
+        check_output(arguments, {".ply", ".stl", ".obj", ".vtp", ".glb", ".vtkhdf", kPrecomputedExtension});
         return extract_label_objects(arguments, terminal);
     }
     check_extract_arguments(arguments);

@@ -121,12 +121,7 @@ Json segment_json(const LabelledObject& one) {
 ChosenLabels make_chosen_labels(const Arguments& arguments, Sides& sides) {
     std::vector<ChosenObject> chosen = sides.find(arguments.objects, arguments.tau);
     if (arguments.top > 0) {
-        for (const ChosenObject& object : sides.first(arguments.top)) chosen.push_back(object);
-    }
-    if (chosen.empty()) {
-        throw Error(ErrorKind::not_found, {.file = arguments.file,
-                                           .what = "no object of this volume is above the noise level",
-                                           .next = "isoatlas objects " + shell_word(arguments.file) + " --all lists all; or give --tau"});
+        for (ChosenObject& object : sides.first_or_refuse(arguments.top)) chosen.push_back(std::move(object));
     }
     return chosen_labels(arguments, sides, chosen);
 }

@@ -5,6 +5,7 @@
 
 #include "data/coarser.h"
 #include "data/label_directory.h"
+#include "data/precomputed.h"
 #include "data/print_surface.h"
 #include "data/simplify.h"
 #include "text/document.h"
@@ -98,6 +99,7 @@ int list_label_objects(const Arguments& arguments, Terminal& terminal) {
 
 int extract_label_objects(const Arguments& arguments, Terminal& terminal) {
     check_coarser(arguments);
+    check_precomputed(arguments);
     Source source(arguments, terminal);
     LabelDirectory directory(arguments, source);
     SurfaceOptions options;
@@ -111,7 +113,10 @@ int extract_label_objects(const Arguments& arguments, Terminal& terminal) {
     const Surface& surface = made.surfaces.front().surface;
     const SurfaceFileOptions file_options{.space = arguments.space.value_or(PointSpace::lps)};
     std::vector<std::string> warnings;
-    {
+    std::vector<PrecomputedLevel> levels;
+    if (is_precomputed(arguments.output)) {
+        levels = write_precomputed(arguments.output, made.surfaces, source.info(), source.context());
+    } else {
         const WritingGuard guard;
         warnings = write_surfaces(arguments.output, made.surfaces, file_options);
     }
@@ -132,6 +137,7 @@ int extract_label_objects(const Arguments& arguments, Terminal& terminal) {
         json["notes"] = made.notes;
         json["simplification"] = made.simplification ? simplification_json(*made.simplification) : Json(nullptr);
         json["coarser"] = coarser_json(made.coarser);
+        json["levels"] = levels_json(levels);
         json["print"] = made.printing ? printing_json(*made.printing) : Json(nullptr);
         add_reads(json, source.reads());
         print(terminal, json);
@@ -142,8 +148,9 @@ int extract_label_objects(const Arguments& arguments, Terminal& terminal) {
                    << interpolant_text(source.info(), surface.interpolant, 0) << '\n';
     if (made.simplification) terminal.out() << simplification_text(*made.simplification) << '\n';
     if (made.coarser.most > 0) terminal.out() << coarser_text(made.coarser) << '\n';
+    if (!levels.empty()) terminal.out() << levels_text(levels) << '\n';
     if (made.printing) terminal.out() << printing_text(*made.printing) << '\n';
-    if (labels.size() == 1 && !surface.triangles.empty() && surface.closed)
+    if (labels.size() == 1 && !surface.triangles.empty() && surface.closed && levels.empty())
         terminal.next("isoatlas verify " + shell_word(arguments.output));
     return 0;
 }
