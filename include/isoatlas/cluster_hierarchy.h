@@ -52,6 +52,19 @@ struct ClusterOptions {
 [[nodiscard]] ClusterHierarchy make_clusters(const Surface& surface, const Geometry& geometry, const Extent& extent,
                                              const ClusterOptions& options = {}, const Context& context = {});
 
+/// From where a surface is seen.
+struct Viewpoint {
+    Vec3 eye{};        ///< physical
+    double pixel = 0;  ///< how wide a pixel is at a physical distance of 1 from the eye, physical; above 0
+    double near = 0;   ///< what is nearer to the eye than this counts as being there, physical; above 0
+};
+
+/// Of each group: how many pixels what replaces it is at most from the exact surface, as it is seen where its ball comes nearest to the
+/// eye. At least those of the groups that made its clusters: the groups of at most so many pixels are a choice. length: physical, of a unit
+/// of ClusterGroup::distance in the direction where it is longest. Throws Error{usage}: pixel, near or length is not positive. Source: the
+/// saturated error of Cignoni, Montani, Scopigno, A comparison of mesh simplification algorithms, 1998, and of Karis, 2021.
+[[nodiscard]] std::vector<double> pixels_of_groups(const ClusterHierarchy& hierarchy, const Viewpoint& from, double length = 1);
+
 /// The surface of a choice: is_chosen is asked once for each group whose made_of are all chosen. Cost: O(hierarchy).
 [[nodiscard]] Surface surface_of_choice(const ClusterHierarchy& hierarchy, const std::function<bool(std::int64_t)>& is_chosen);
 /// Coarser and coarser ones, each with at most a third of the triangles of the one before; fewer than `most` where the hierarchy has no

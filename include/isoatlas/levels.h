@@ -31,6 +31,12 @@ struct PreparedLevels {
     double distance = 0;         ///< of the coarsest one from the exact one, at most, in voxels
 };
 
+/// A surface that is finer where the eye is near.
+struct SeenSurface {
+    SimplifiedSurface simplified;  ///< its distance in voxels, where it is greatest
+    double pixels = 0;             ///< no point of it is seen farther than so many pixels from the exact surface, nor back
+};
+
 /// The file beside a store: STORE.lod; of low values: scan.low.atlas.lod beside scan.atlas, as beside scan.low.atlas.
 [[nodiscard]] std::string levels_path(const std::string& store, Polarity polarity = Polarity::high);
 
@@ -60,6 +66,10 @@ public:
     [[nodiscard]] SimplifiedSurface within(std::int64_t surface, double distance) const;
     /// The nearest one of those with at most so many triangles; the coarsest, if it has more.
     [[nodiscard]] SimplifiedSurface at_most(std::int64_t surface, std::int64_t triangles) const;
+    /// The one of which no part is seen farther than `pixels` from the exact surface; if it has more triangles than that, the nearest one
+    /// of those with at most so many, or the coarsest. Throws Error: usage (a length of the viewpoint or pixels is not positive), input
+    /// (damage). Cost: reads what the surface needs.
+    [[nodiscard]] SeenSurface seen_from(std::int64_t surface, const Viewpoint& from, double pixels, std::int64_t triangles) const;
     /// All levels. Throws Error{input} for damage.
     [[nodiscard]] ClusterHierarchy hierarchy(std::int64_t surface) const;
 

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "geometry/vectors.h"
+#include "isoatlas/error.h"
 #include "level_of_detail/without_points.h"
 
 namespace isoatlas {
@@ -36,6 +38,13 @@ Surface part_of(const ClusterHierarchy& hierarchy, const std::vector<std::int64_
     return part;
 }
 
+std::vector<std::int64_t> clusters_within(const ClusterHierarchy& hierarchy, double distance) {
+    return clusters_of_choice(hierarchy,
+                              [&](std::int64_t group) { return hierarchy.groups[static_cast<std::size_t>(group)].distance <= distance; });
+}
+
+}  // namespace
+
 std::vector<std::int64_t> clusters_of_choice(const ClusterHierarchy& hierarchy, const std::function<bool(std::int64_t)>& is_chosen) {
     std::vector<std::uint8_t> chosen(hierarchy.groups.size(), 0);
     for (std::size_t i = 0; i < chosen.size(); ++i) {
@@ -53,21 +62,28 @@ std::vector<std::int64_t> clusters_of_choice(const ClusterHierarchy& hierarchy, 
     return clusters;
 }
 
-std::vector<std::int64_t> clusters_within(const ClusterHierarchy& hierarchy, double distance) {
-    return clusters_of_choice(hierarchy,
-                              [&](std::int64_t group) { return hierarchy.groups[static_cast<std::size_t>(group)].distance <= distance; });
-}
-
 std::int64_t triangles_of(const ClusterHierarchy& hierarchy, const std::vector<std::int64_t>& clusters) {
     std::int64_t triangles = 0;
     for (const std::int64_t i : clusters) triangles += hierarchy.clusters[static_cast<std::size_t>(i)].triangles;
     return triangles;
 }
 
-}  // namespace
-
 std::int64_t triangles_within(const ClusterHierarchy& hierarchy, double distance) {
     return triangles_of(hierarchy, clusters_within(hierarchy, distance));
+}
+
+std::vector<double> pixels_of_groups(const ClusterHierarchy& hierarchy, const Viewpoint& from, double length) {
+    if (!(from.pixel > 0) || !(from.near > 0) || !(length > 0))
+        throw Error(ErrorKind::usage, {.what = "a length of the viewpoint is not positive", .expected = "more than 0"});
+    std::vector<double> pixels;
+    pixels.reserve(hierarchy.groups.size());
+    for (const ClusterGroup& group : hierarchy.groups) {
+        const double away = norm(minus(group.centre, from.eye)) - group.radius;
+        double most = group.distance * length / (from.pixel * std::max(away, from.near));
+        for (const std::int64_t part : group.made_of) most = std::max(most, pixels[static_cast<std::size_t>(part)]);  // rounding
+        pixels.push_back(most);
+    }
+    return pixels;
 }
 
 Surface surface_of_choice(const ClusterHierarchy& hierarchy, const std::function<bool(std::int64_t)>& is_chosen) {

@@ -9,7 +9,9 @@
 #include "atlas/access.h"
 #include "atlas/build_folder.h"
 #include "base/phase.h"
+#include "field/voxel_positions.h"
 #include "formats/common/file_access.h"
+#include "geometry/vectors.h"
 #include "isoatlas/environment.h"
 #include "isoatlas/error.h"
 #include "isoatlas/object_names.h"
@@ -33,6 +35,12 @@ Surface surface_of(const Atlas& atlas, double tau) {
     Surface surface;
     describe(surface, atlas.info(), tau, atlas.interpolant(), atlas.tunnel_height());
     return surface;
+}
+
+/// How long a voxel can be in any direction: the longest step where the axes are perpendicular, else a bound.
+double longest_step_of(const Geometry& geometry) {
+    const Vec3 steps = with_smallest_steps(geometry).spacing;
+    return skew_of(geometry, 3) == 1 ? std::ranges::max(steps) : norm(steps);
 }
 
 std::vector<LevelsKey> keys_of(const Container& file) {
@@ -145,8 +153,10 @@ struct Levels::Data {
     std::vector<LevelsKey> keys;
     std::vector<StoredClusters> clusters;
     std::vector<PreparedLevels> surfaces;
+    double longest_step;  ///< physical, of distances of a voxel
 
-    Data(const std::string& path, const Atlas& atlas) : file(path), keys(keys_of(file)) {
+    Data(const std::string& path, const Atlas& atlas)
+        : file(path), keys(keys_of(file)), longest_step(longest_step_of(atlas.info().geometry)) {
         check_same(file, atlas);
         for (std::size_t i = 0; i < keys.size(); ++i) {
             const StoredClusters& of = clusters.emplace_back(file, surface_prefix(i), surface_of(atlas, keys[i].tau));
@@ -234,6 +244,28 @@ SimplifiedSurface Levels::at_most(std::int64_t surface, std::int64_t triangles) 
     const auto fits = [&](double distance) { return triangles_within(clusters.tables(), distance) <= triangles; };
     const auto found = std::ranges::partition_point(distances, [&](double distance) { return !fits(distance); });
     return within(surface, found == distances.end() ? distances.back() : *found);
+}
+
+SeenSurface Levels::seen_from(std::int64_t surface, const Viewpoint& from, double pixels, std::int64_t triangles) const {
+    if (!(pixels > 0)) throw Error(ErrorKind::usage, {.what = "the number of pixels is not positive", .expected = "more than 0"});
+    const StoredClusters& clusters = data_->at(surface);
+    const ClusterHierarchy& tables = clusters.tables();
+    const std::vector<double> of_groups = pixels_of_groups(tables, from, data_->longest_step);
+    const auto chosen = [&](double most) {
+        return clusters_of_choice(tables, [&](std::int64_t group) { return of_groups[static_cast<std::size_t>(group)] <= most; });
+    };
+    std::vector<double> steps{pixels};
+    std::ranges::copy_if(of_groups, std::back_inserter(steps), [&](double of_group) { return of_group > pixels; });
+    std::ranges::sort(steps);
+    const auto found = std::ranges::partition_point(steps, [&](double most) { return triangles_of(tables, chosen(most)) > triangles; });
+    const double most = found == steps.end() ? steps.back() : *found;
+    SeenSurface seen{{clusters.read(chosen(most)), 0}, 0};
+    for (std::size_t i = 0; i < of_groups.size(); ++i) {
+        if (of_groups[i] > most) continue;
+        seen.simplified.distance = std::max(seen.simplified.distance, tables.groups[i].distance);
+        seen.pixels = std::max(seen.pixels, of_groups[i]);
+    }
+    return seen;
 }
 
 ClusterHierarchy Levels::hierarchy(std::int64_t surface) const { return data_->at(surface).read(-1); }

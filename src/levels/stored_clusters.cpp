@@ -127,6 +127,56 @@ void StoredClusters::damaged(const char* what) const {
                                    .next = "the levels of detail are damaged: delete the file and make them again"});
 }
 
+template <class Row>
+void StoredClusters::read_rows(const char* name, const char* type, std::span<const std::int64_t> rows, Array<Row>& out) const {
+    constexpr std::int64_t kFewest = 1024;
+    const StoredArray& array = file_.contents().array(prefix_ + name, type);
+    if (array.count() == 0) return;
+    constexpr auto kBytes = static_cast<std::int64_t>(sizeof(Row));
+    const std::int64_t chunk = std::max(kFewest, array.block / kBytes);  // rows that are read together anyway
+    std::vector<FileRange> runs;
+    for (const std::int64_t row : rows) {
+        if (runs.empty() || (row - chunk) * kBytes > runs.back().end) runs.push_back({row * kBytes, 0});
+        runs.back().end = (row + 1) * kBytes;
+    }
+    file_.fetch(array, runs);
+    out.resize(rows.size());
+    std::vector<Row> run;
+    std::size_t next = 0;
+    for (const FileRange& range : runs) {
+        const std::int64_t first = range.begin / kBytes;
+        run.resize(static_cast<std::size_t>((range.end - range.begin) / kBytes));
+        file_.read(array, range.begin, std::as_writable_bytes(std::span(run)));
+        for (; next < rows.size() && rows[next] < range.end / kBytes; ++next) out[next] = run[static_cast<std::size_t>(rows[next] - first)];
+    }
+}
+
+Surface StoredClusters::read(std::span<const std::int64_t> clusters) const {
+    std::vector<std::int64_t> rows;
+    for (const std::int64_t i : clusters) {
+        const Cluster& cluster = tables_.clusters[static_cast<std::size_t>(i)];
+        for (std::int64_t t = 0; t < cluster.triangles; ++t) rows.push_back(cluster.first_triangle + t);
+    }
+    Surface surface = tables_.surface;
+    read_rows("triangles", "int64", rows, surface.triangles);
+    const std::int64_t count = file_.contents().array(prefix_ + "points", "float64").count() / 3;
+    std::vector<std::int64_t> used;
+    used.reserve(3 * surface.triangles.size());
+    for (const auto& triangle : surface.triangles) used.insert(used.end(), triangle.begin(), triangle.end());
+    std::ranges::sort(used);
+    const auto doubled = std::ranges::unique(used);
+    used.erase(doubled.begin(), doubled.end());
+    if (!used.empty() && (used.front() < 0 || used.back() >= count)) damaged("a triangle has a point that there is not");
+    read_rows("points", "float64", used, surface.points);
+    read_rows("normals", "float32", used, surface.normals);
+    read_rows("object", "int64", used, surface.object);
+    read_rows("contour", "int64", used, surface.contour);
+    for (auto& triangle : surface.triangles) {
+        for (std::int64_t& point : triangle) point = std::ranges::lower_bound(used, point) - used.begin();
+    }
+    return surface;
+}
+
 ClusterHierarchy StoredClusters::read(double distance) const {
     ClusterHierarchy found = tables_;
     const ClusterParts parts = parts_beyond(tables_, points_, distance);

@@ -1,6 +1,7 @@
 // A cluster hierarchy as arrays of a container. What coarse surfaces need is at the beginning of every array.
 #pragma once
 
+#include <span>
 #include <string>
 #include <vector>
 
@@ -26,8 +27,13 @@ public:
     [[nodiscard]] const ClusterHierarchy& tables() const { return tables_; }  ///< without points and triangles
     /// With the points and triangles of the surfaces that choose every group of at most this distance. Throws Error{input} for damage.
     [[nodiscard]] ClusterHierarchy read(double distance) const;
+    /// The surface of a choice, by its clusters, ascending. Throws Error{input} for damage. Cost: reads the chunks in which they lie.
+    [[nodiscard]] Surface read(std::span<const std::int64_t> clusters) const;
 
 private:
+    /// rows: ascending.
+    template <class Row>
+    void read_rows(const char* name, const char* type, std::span<const std::int64_t> rows, Array<Row>& out) const;
     void check_tables() const;
     [[noreturn]] void damaged(const char* what) const;
 

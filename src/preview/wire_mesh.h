@@ -31,6 +31,7 @@ struct WireMesh {
     std::int64_t points = 0, triangles = 0;
     bool coarse = false;               ///< triangles were left out
     std::optional<double> distance{};  ///< of a level of detail from the exact surface, at most, in voxels; the caller sets it
+    std::optional<double> pixels{};    ///< the same as it is seen, in pixels
     std::size_t without_area = 0;      ///< WireOptions::distinct: triangles without area nevertheless
 };
 

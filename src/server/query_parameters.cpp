@@ -41,6 +41,12 @@ std::optional<double> QueryParameters::number(std::string_view name, double min)
     return any;
 }
 
+double QueryParameters::required_tau() {
+    const std::optional<double> tau = number("tau");
+    if (!tau) throw Error(ErrorKind::usage, {.where = "tau", .what = "missing isovalue", .next = "add tau=NUMBER"});
+    return *tau;
+}
+
 std::optional<std::int64_t> QueryParameters::whole(std::string_view name, std::int64_t min, std::int64_t max) {
     const std::optional<std::string_view> text = take(name);
     if (!text) return std::nullopt;

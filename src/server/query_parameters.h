@@ -17,6 +17,7 @@ public:
     /// All throw Error{usage}: not a number, not finite, out of range, more than one.
     [[nodiscard]] std::optional<double> number(std::string_view name);
     [[nodiscard]] std::optional<double> number(std::string_view name, double min);
+    [[nodiscard]] double required_tau();  ///< also where it is missing
     [[nodiscard]] std::optional<std::int64_t> whole(std::string_view name, std::int64_t min, std::int64_t max);
     [[nodiscard]] std::optional<std::string> choice(std::string_view name, const std::vector<std::string_view>& choices);
     /// Numbers between commas, at most `count`.

@@ -17,8 +17,6 @@
 #include "server/answers.h"
 #include "server/branch_answers.h"
 #include "server/download.h"
-#include "server/fewer_triangles.h"
-#include "server/object_points.h"
 #include "server/sample_answers.h"
 #include "server/secret.h"
 #include "server/several_objects.h"
@@ -28,8 +26,7 @@ namespace isoatlas {
 namespace {
 
 constexpr std::int64_t kMaxListed = 100000, kMaxFrames = 16, kMaxBranches = std::int64_t{1} << 40;
-constexpr int kAtOnce = 2;  ///< responses at a time
-constexpr std::int64_t kMaxPointDivisions = 8;
+constexpr int kAtOnce = 2;                ///< responses at a time
 constexpr std::int64_t kLabelBytes = 24;  ///< of a voxel while labels are made
 
 int status_of(ErrorKind kind) {
@@ -44,12 +41,6 @@ int status_of(ErrorKind kind) {
 
 Response refusal(int status, const Error& error) { return {status, "application/json", error_json(error)}; }
 Response json_answer(std::string text) { return {200, "application/json", std::move(text)}; }
-
-double required_tau(QueryParameters& words) {
-    const std::optional<double> tau = words.number("tau");
-    if (!tau) throw Error(ErrorKind::usage, {.where = "tau", .what = "missing isovalue", .next = "add tau=NUMBER"});
-    return *tau;
-}
 
 /// The parameter `polarity`, which every request may have, as a member.
 Request with_polarity(const Request& request) {
@@ -184,7 +175,7 @@ Response Service::events_answer(const Request& request) {
 
 Response Service::preview_answer(const Request& request) {
     QueryParameters words(request.words);
-    const double tau = required_tau(words);
+    const double tau = words.required_tau();
     const std::vector<std::int64_t> objects = voxels(words, "object", request);
     words.reject_unknown();
     if (objects.size() > 1) throw Error(ErrorKind::usage, {.where = "object", .what = "more than one", .expected = "one object"});
@@ -203,7 +194,7 @@ Response Service::preview_answer(const Request& request) {
 
 Response Service::objects_answer(const Request& request) {
     QueryParameters words(request.words);
-    const double tau = required_tau(words);
+    const double tau = words.required_tau();
     const std::int64_t top = words.whole("top", 1, kMaxListed).value_or(1000);
     words.reject_unknown();
     (void)known(request);
@@ -215,7 +206,7 @@ Response Service::objects_answer(const Request& request) {
 Response Service::measures_answer(const Request& request) {
     const Atlas& atlas = atlas_of_volume(request);
     QueryParameters words(request.words);
-    const double tau = required_tau(words);
+    const double tau = words.required_tau();
     const std::vector<std::int64_t> objects = voxels(words, "object", request);
     words.reject_unknown();
     if (objects.empty()) throw Error(ErrorKind::usage, {.where = "object", .what = "which objects?", .next = "add object=REF,..."});
@@ -266,53 +257,10 @@ Response Service::card_answer(const Request& request) {
     return json_answer(cards_.json(drawn, subject, frames, request, queues_.of(QueueClass::cards), context_));
 }
 
-Response Service::surface_answer(const Request& request) {
-    const Atlas& atlas = atlas_of_volume(request);
-    QueryParameters words(request.words);
-    const double tau = required_tau(words);
-    SurfaceOptions options;
-    options.objects = voxels(words, "object", request);
-    options.contours = voxels(words, "contour", request);
-    const std::optional<std::string> shell = words.choice("shell", {"outer", "inner"});
-    if (shell) options.shell = *shell == "inner" ? ShellChoice::inner : ShellChoice::outer;
-    const std::optional<std::string> format = words.choice("format", {"ply", "stl", "obj", "vtp", "glb", "vtkhdf"});
-    std::optional<FewerTriangles> simplified;
-    if (format) simplified.emplace(words);
-    const std::optional<std::int64_t> divisions = format ? std::nullopt : words.whole("points", 1, kMaxPointDivisions);
-    options.ids = format.has_value();
-    const std::int64_t max = words.whole("max", 1, kMaxShownTriangles).value_or(kMaxShownTriangles);
-    const std::string unit = unit_of_lengths(words, atlas.info().geometry);
-    words.reject_unknown();
-
-    const std::unique_ptr<JobQueue::Job> job = acquire_job(QueueClass::surfaces, request);
-    const Context context = context_of(*job);
-    const double stored = stored_tau(atlas, tau);
-    if (format) {
-        options.max_triangles = simplified->most_of(max_triangles());
-        Surface surface = atlas.extract(stored, options, context);
-        simplified->apply(surface, atlas.info(), context);
-        surface.unit = unit;
-        Download download(*format, context);
-        (void)write_surface(download, surface);
-        return simplified->told(file_answer(download.take()));
-    }
-    const auto make = [&](const Context& own) {
-        if (!divisions) return mesh_of(atlas, stored, options, max, own);
-        const Surface surface = extract(atlas, stored, options, own);
-        return wire(points_as_squares(atlas, surface, {static_cast<int>(*divisions), max_triangles(), memory_}, own), 0, own);
-    };
-    WireMesh mesh = !divisions && is_first(atlas, stored, options, max) ? first_.get(context, make) : make(context);
-    Response answer = file_answer(std::move(mesh.bytes));
-    answer.headers["X-Triangles"] = std::to_string(mesh.triangles);
-    answer.headers["X-Coarse"] = mesh.coarse ? "1" : "0";
-    if (mesh.distance) answer.headers["X-Distance"] = number_text(*mesh.distance);
-    return answer;
-}
-
 Response Service::label_answer(const Request& request) {
     const Atlas& atlas = this->atlas(request);
     QueryParameters words(request.words);
-    const double tau = required_tau(words);
+    const double tau = words.required_tau();
     const std::vector<std::int64_t> objects = voxels(words, "object", request);
     const std::string format = words.choice("format", {"nrrd", "nii", "nii.gz", "tif"}).value_or("nrrd");
     VolumeInfo info = atlas.info();

@@ -115,10 +115,11 @@ private:
     [[nodiscard]] Surface extract(const Atlas& atlas, double tau, SurfaceOptions options, const Context& context) const;
     [[nodiscard]] std::int64_t max_triangles() const;
     [[nodiscard]] WireMesh wire(const Surface& surface, std::int64_t max, const Context& context) const;
+    /// A surface of at most so many triangles, if it can be reduced to so many: a level of detail where the store has it.
+    [[nodiscard]] WireMesh mesh_of(const Atlas& atlas, double tau, const SurfaceOptions& options, const MeshWanted& wanted,
+                                   const Context& context);
     /// Is it the first surface of every page?
-    /// A surface of at most `max` triangles, if it can be reduced to so many: a level of detail where the store has it.
-    [[nodiscard]] WireMesh mesh_of(const Atlas& atlas, double tau, const SurfaceOptions& options, std::int64_t max, const Context& context);
-    [[nodiscard]] bool is_first(const Atlas& atlas, double tau, const SurfaceOptions& options, std::int64_t max) const;
+    [[nodiscard]] bool is_first(const Atlas& atlas, double tau, const SurfaceOptions& options, const MeshWanted& wanted) const;
 
     const std::string token_;
     Context context_;

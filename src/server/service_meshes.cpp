@@ -1,19 +1,48 @@
-// Surfaces as meshes: of the whole store, or of its levels of detail; the first one of a page is kept.
+// Surfaces as meshes or files: of the whole store, or of its levels of detail; the first one of a page is kept.
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
+#include "formats/common/byte_writer.h"
+#include "isoatlas/isovalue.h"
 #include "isoatlas/polarity.h"
+#include "server/answers.h"
+#include "server/download.h"
+#include "server/fewer_triangles.h"
+#include "server/object_points.h"
+#include "server/parameter_text.h"
+#include "server/query_parameters.h"
 #include "server/service.h"
+#include "server/unit_word.h"
 
 namespace isoatlas {
 namespace {
 
 constexpr std::int64_t kFirstTriangles = 20'000;  ///< max of the first request of a page (web/src/viewer/api/surfaces.ts)
 constexpr std::int64_t kTriangleBytes = 128;      ///< of a triangle while a response is made
-constexpr double kStepsOfVoxel = 64;              ///< steps of positions per voxel
+constexpr std::int64_t kMaxPointDivisions = 8;
+constexpr double kStepsOfVoxel = 64;  ///< steps of positions per voxel
 
 /// The entry that every page shows first; null: none, or a cavity.
 const NamedEntry* first_of(const StoreCatalogue& known) {
     return known.entries.empty() || known.entries.front().is_cavity ? nullptr : &known.entries.front();
+}
+
+/// eye=X,Y,Z&pixel=WIDTH; nothing: without them.
+std::optional<Viewpoint> viewpoint_of(QueryParameters& words, const Geometry& geometry) {
+    const std::vector<std::string_view> numbers = words.items("eye", 3);
+    const std::optional<double> pixel = words.number("pixel", std::numeric_limits<double>::min());
+    if (numbers.empty() && !pixel) return std::nullopt;
+    if (numbers.size() != 3 || !pixel)
+        throw Error(ErrorKind::usage,
+                    {.where = "eye", .what = "a view has an eye and the width of a pixel", .next = "add eye=X,Y,Z&pixel=WIDTH"});
+    Viewpoint from{.pixel = *pixel, .near = std::ranges::min(geometry.spacing)};
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        const std::optional<double> at = whole_text_as<double>(numbers[axis]);
+        if (!at || !std::isfinite(*at)) refuse_parameter("eye", numbers[axis], "a finite number");
+        from.eye[axis] = *at;
+    }
+    return from;
 }
 
 }  // namespace
@@ -28,25 +57,72 @@ void Service::prepare(const Context& context) {
     SurfaceOptions options;
     options.ids = false;
     options.objects = {first->id};
-    (void)first_.get(own, [&](const Context& shared) { return mesh_of(atlas, first->tau, options, kFirstTriangles, shared); });
+    (void)first_.get(own, [&](const Context& shared) { return mesh_of(atlas, first->tau, options, {kFirstTriangles, {}}, shared); });
 }
 
-bool Service::is_first(const Atlas& atlas, double tau, const SurfaceOptions& options, std::int64_t max) const {
+bool Service::is_first(const Atlas& atlas, double tau, const SurfaceOptions& options, const MeshWanted& wanted) const {
     const StoreCatalogue* known = known_.there();
     const NamedEntry* first = known == nullptr ? nullptr : first_of(*known);
-    if (first == nullptr || max != kFirstTriangles || first->polarity != polarity_of(atlas.info())) return false;
+    if (first == nullptr || wanted.triangles != kFirstTriangles || wanted.from || first->polarity != polarity_of(atlas.info()))
+        return false;
     const bool is_alone = options.objects == std::vector{first->id} && options.contours.empty() && options.shell == ShellChoice::all;
     return is_alone && tau == first->tau && !options.ids;
 }
 
-WireMesh Service::mesh_of(const Atlas& atlas, double tau, const SurfaceOptions& options, std::int64_t max, const Context& context) {
-    const std::optional<SimplifiedSurface> level = levels_.at_most(atlas, options, tau, max);
-    if (!level) return wire(extract(atlas, tau, options, context), max, context);
-    WireMesh mesh = wire(level->surface, max, context);
+WireMesh Service::mesh_of(const Atlas& atlas, double tau, const SurfaceOptions& options, const MeshWanted& wanted, const Context& context) {
+    const std::optional<SeenSurface> level = levels_.find(atlas, options, tau, wanted);
+    if (!level) return wire(extract(atlas, tau, options, context), wanted.triangles, context);
+    WireMesh mesh = wire(level->simplified.surface, wanted.triangles, context);
     if (mesh.coarse) return mesh;  // reduced once more, without a promise
-    mesh.coarse = level->distance > 0;
-    mesh.distance = level->distance;
+    mesh.coarse = level->simplified.distance > 0;
+    mesh.distance = level->simplified.distance;
+    if (wanted.from) mesh.pixels = level->pixels;
     return mesh;
+}
+
+Response Service::surface_answer(const Request& request) {
+    const Atlas& atlas = atlas_of_volume(request);
+    QueryParameters words(request.words);
+    const double tau = words.required_tau();
+    SurfaceOptions options;
+    options.objects = voxels(words, "object", request);
+    options.contours = voxels(words, "contour", request);
+    const std::optional<std::string> shell = words.choice("shell", {"outer", "inner"});
+    if (shell) options.shell = *shell == "inner" ? ShellChoice::inner : ShellChoice::outer;
+    const std::optional<std::string> format = words.choice("format", {"ply", "stl", "obj", "vtp", "glb", "vtkhdf"});
+    std::optional<FewerTriangles> simplified;
+    if (format) simplified.emplace(words);
+    const std::optional<std::int64_t> divisions = format ? std::nullopt : words.whole("points", 1, kMaxPointDivisions);
+    options.ids = format.has_value();
+    const MeshWanted wanted{words.whole("max", 1, kMaxShownTriangles).value_or(kMaxShownTriangles),
+                            viewpoint_of(words, atlas.info().geometry)};
+    const std::string unit = unit_of_lengths(words, atlas.info().geometry);
+    words.reject_unknown();
+
+    const std::unique_ptr<JobQueue::Job> job = acquire_job(QueueClass::surfaces, request);
+    const Context context = context_of(*job);
+    const double stored = stored_isovalue(atlas.info(), tau);
+    if (format) {
+        options.max_triangles = simplified->most_of(max_triangles());
+        Surface surface = atlas.extract(stored, options, context);
+        simplified->apply(surface, atlas.info(), context);
+        surface.unit = unit;
+        Download download(*format, context);
+        (void)write_surface(download, surface);
+        return simplified->told(file_answer(download.take()));
+    }
+    const auto make = [&](const Context& own) {
+        if (!divisions) return mesh_of(atlas, stored, options, wanted, own);
+        const Surface surface = extract(atlas, stored, options, own);
+        return wire(points_as_squares(atlas, surface, {static_cast<int>(*divisions), max_triangles(), memory_}, own), 0, own);
+    };
+    WireMesh mesh = !divisions && is_first(atlas, stored, options, wanted) ? first_.get(context, make) : make(context);
+    Response answer = file_answer(std::move(mesh.bytes));
+    answer.headers["X-Triangles"] = std::to_string(mesh.triangles);
+    answer.headers["X-Coarse"] = mesh.coarse ? "1" : "0";
+    if (mesh.distance) answer.headers["X-Distance"] = number_text(*mesh.distance);
+    if (mesh.pixels) answer.headers["X-Pixels"] = number_text(*mesh.pixels);
+    return answer;
 }
 
 std::int64_t Service::max_triangles() const { return std::min(memory_ / kTriangleBytes, kMaxShownTriangles); }

@@ -32,8 +32,8 @@ bool is_there(const std::string& path) {
 
 }  // namespace
 
-std::optional<SimplifiedSurface> StoreLevels::at_most(const Atlas& atlas, const SurfaceOptions& options, double tau,
-                                                      std::int64_t triangles) {
+std::optional<SeenSurface> StoreLevels::find(const Atlas& atlas, const SurfaceOptions& options, double tau, const MeshWanted& wanted) {
+    constexpr double kPixels = 1;
     const std::optional<LevelsKey> key = key_of(options, tau);
     if (!key) return std::nullopt;
     const Polarity polarity = polarity_of(atlas.info());
@@ -43,8 +43,9 @@ std::optional<SimplifiedSurface> StoreLevels::at_most(const Atlas& atlas, const 
         if (is_there(path)) side.levels.emplace(path, atlas);
     });
     const std::int64_t found = side.levels ? side.levels->find(*key) : -1;
-    if (found < 0 || side.levels->surfaces()[static_cast<std::size_t>(found)].triangles <= triangles) return std::nullopt;
-    return side.levels->at_most(found, triangles);
+    if (found < 0 || side.levels->surfaces()[static_cast<std::size_t>(found)].triangles <= wanted.triangles) return std::nullopt;
+    if (wanted.from) return side.levels->seen_from(found, *wanted.from, kPixels, wanted.triangles);
+    return SeenSurface{side.levels->at_most(found, wanted.triangles), 0};
 }
 
 }  // namespace isoatlas

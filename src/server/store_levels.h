@@ -9,12 +9,16 @@
 
 namespace isoatlas {
 
+struct MeshWanted {
+    std::int64_t triangles = 0;          ///< at most
+    std::optional<Viewpoint> from = {};  ///< fine where it is near to the eye, a pixel from the exact surface; else equally fine everywhere
+};
+
 class StoreLevels {
 public:
     /// The level with at most so many triangles, or the coarsest one; nothing: there are no levels of the surface, or it has no more
     /// triangles. Looks for the file once. Throws Error{input} for a damaged file, or one of another store.
-    [[nodiscard]] std::optional<SimplifiedSurface> at_most(const Atlas& atlas, const SurfaceOptions& options, double tau,
-                                                           std::int64_t triangles);
+    [[nodiscard]] std::optional<SeenSurface> find(const Atlas& atlas, const SurfaceOptions& options, double tau, const MeshWanted& wanted);
 
 private:
     struct Side {

@@ -117,6 +117,18 @@ void Container::fetch(std::span<const StoredArray* const> arrays) const {
     fetch(std::move(ranges));
 }
 
+void Container::fetch(const StoredArray& array, std::span<const FileRange> bytes) const {
+    if (array.chunk == 0 || bytes.empty()) return;
+    const std::int64_t first = bytes.front().begin / array.block, last = (bytes.back().end + array.block - 1) / array.block;
+    const std::vector<StoredChunk> chunks = chunk_table(array, first, last);
+    std::vector<FileRange> ranges;
+    for (const FileRange& range : bytes) {
+        for (std::int64_t i = range.begin / array.block; i * array.block < range.end; ++i)
+            ranges.push_back(range_of(chunks[static_cast<std::size_t>(i - first)]));
+    }
+    fetch(std::move(ranges));
+}
+
 void Container::fetch_groups(std::span<const std::string_view> groups) const {
     std::vector<const StoredArray*> arrays;
     for (const StoredArray& array : contents_.arrays) {

@@ -68,6 +68,8 @@ public:
     /// Of a store on another machine: fetches whole arrays with their checksums, together, before they are read. Two round trips, or one
     /// where no array is in chunks.
     void fetch(std::span<const StoredArray* const> arrays) const;
+    /// The same for ranges of bytes of an array, ascending; of one that is not in chunks nothing.
+    void fetch(const StoredArray& array, std::span<const FileRange> bytes) const;
     /// The same for all arrays of groups ("objects" for "objects/id", ...); groups that the store does not have are ignored.
     void fetch_groups(std::span<const std::string_view> groups) const;
 

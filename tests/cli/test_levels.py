@@ -73,6 +73,32 @@ class Levels(CliTest):
         finally:
             viewer.stop()
 
+    def test_viewers_are_answered_from_where_they_look(self):
+        found = self.run_json("objects", "field.atlas")["objects"][0]
+        listed = self.made("--top", "1")[0]["surfaces"]
+        surface, = (one for one in listed if (one["voxel"], one["tau"]) == (found["id"], found["best_tau"]))
+        viewer = Viewer(self.folder, "field.atlas")
+        try:
+            def seen(eye, triangles):
+                path = f"/api/surface?tau={found['best_tau']!r}&object=v{found['id']}&max={triangles}{eye}"
+                status, headers, body = viewer.ask(path)
+                self.assertEqual(status, 200, body)
+                return int(headers["X-Triangles"]), float(headers.get("X-Pixels", -1)), float(headers.get("X-Distance", -1))
+            budget = surface["triangles"] // 3
+            evenly, no_pixels, distance = seen("", budget)
+            self.assertEqual(no_pixels, -1)
+            near, pixels, farthest = seen("&eye=0,0,0&pixel=0.001", budget)
+            self.assertLessEqual(max(near, evenly), budget)
+            self.assertGreater(pixels, 0)
+            self.assertGreater(farthest, distance)  # coarser than evenly where it is far
+            far, one_pixel, _ = seen("&eye=0,0,1e6&pixel=0.001", budget)
+            self.assertLess(far, near)
+            self.assertLessEqual(one_pixel, 1)
+            for wrong in ("&eye=0,0,0", "&pixel=1", "&eye=0,0&pixel=1", "&eye=0,0,x&pixel=1", "&eye=0,0,0&pixel=0"):
+                self.assertEqual(viewer.ask(f"/api/surface?tau=0.5&max=9{wrong}")[0], 400, wrong)
+        finally:
+            viewer.stop()
+
     def without_samples(self):
         """A copy of the store in which every sample is damaged."""
         bytes_ = bytearray((self.folder / "field.atlas").read_bytes())

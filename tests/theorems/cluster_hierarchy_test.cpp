@@ -60,6 +60,28 @@ void every_choice_has_the_same_contours_within_its_distance() {
     }
 }
 
+/// The groups of at most so many pixels are a choice, from wherever the surface is seen.
+void every_view_has_the_same_contours_within_its_distance() {
+    const CoarseCase c;
+    const ClusterHierarchy hierarchy = hierarchy_of(c, arbitrary_context());
+    if (hierarchy.groups.empty()) return;
+    isoatlas::Viewpoint from{.pixel = 0.01, .near = 0.5};
+    for (double& x : from.eye) x = *rc::gen::inRange(-20, 40);
+    const std::vector<double> pixels = pixels_of_groups(hierarchy, from);
+    for (std::size_t i = 0; i < pixels.size(); ++i) {
+        for (const std::int64_t part : hierarchy.groups[i].made_of) RC_ASSERT(pixels[static_cast<std::size_t>(part)] <= pixels[i]);
+    }
+    const double most = *rc::gen::elementOf(pixels);
+    double distance = 0;
+    const Surface seen = surface_of_choice(hierarchy, [&](std::int64_t group) {
+        const auto i = static_cast<std::size_t>(group);
+        if (pixels[i] <= most) distance = std::max(distance, hierarchy.groups[i].distance);
+        return pixels[i] <= most;
+    });
+    const isoatlas::SimplifiedReport report = coarse_report(seen, c.exact, c.volume.info, c.options.unit, distance);
+    if (const std::string failure = coarse_failure(report, seen, c.exact); !failure.empty()) RC_FAIL(failure + c.text(report));
+}
+
 void clusters_are_parts_of_the_surface() {
     const CoarseCase c;
     const ClusterHierarchy hierarchy = hierarchy_of(c);
@@ -185,6 +207,9 @@ TEST(ClusterHierarchies, OfSharedVolumesHold) {
 
 RC_GTEST_PROP(ClusterHierarchies, EveryChoiceHasTheSameContoursWithinItsDistance, ()) {
     every_choice_has_the_same_contours_within_its_distance();
+}
+RC_GTEST_PROP(ClusterHierarchies, EveryViewHasTheSameContoursWithinItsDistance, ()) {
+    every_view_has_the_same_contours_within_its_distance();
 }
 RC_GTEST_PROP(ClusterHierarchies, ClustersArePartsOfTheSurface, ()) { clusters_are_parts_of_the_surface(); }
 RC_GTEST_PROP(ClusterHierarchies, TheCoarsestSurfaceHasTheSameContours, ()) { the_coarsest_surface_has_the_same_contours(); }

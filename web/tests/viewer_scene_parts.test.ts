@@ -5,7 +5,7 @@ import { deflateSync } from "node:zlib";
 import { describe, expect, it } from "vitest";
 import { animatedPng, chunksOf } from "../src/viewer/export/apng";
 import { allText, bytesText } from "../src/viewer/panels/surface_estimate";
-import { ConnectionError, failureText, ServerError, type Api } from "../src/viewer/api/api";
+import { ConnectionError, failureText, ServerError, type Api, type Eye } from "../src/viewer/api/api";
 import { eventNear, eventsOf } from "../src/viewer/state/events";
 import { Latest } from "../src/viewer/api/latest";
 import { factsOf } from "../src/viewer/panels/object_measures";
@@ -132,6 +132,42 @@ describe("surfaces", () => {
   });
 });
 
+describe("large surfaces with levels of detail", () => {
+  const request = (tau: number) => ({ tau, target: null, walls: "all" as const });
+  it("are fine where the eye is near, and loaded again where it goes", async () => {
+    const asked: string[] = [];
+    const api = {
+      surface: (_: string, tau: number, __: unknown, most: number, ___: unknown, eye?: Eye) => {
+        asked.push(`${tau} at most ${most}${eye ? ` from ${eye.at.join()}` : ""}`);
+        return Promise.resolve({ triangles: 8, bytes: 9, coarse: true, within: 2, ...(eye && { pixels: 0.5 }) } as Mesh);
+      },
+      abort: () => undefined,
+    } as unknown as Api;
+    const eye = { at: [1, 2, 3], pixel: 0.01 };
+    const surfaces = new Surfaces(
+      api,
+      () => undefined,
+      () => undefined,
+      () => ({ ...eye }),
+    );
+    surfaces.request(0, request(1), false);
+    await surfaces.settled();
+    expect(asked).toEqual(["1 at most 20000", "1 at most 1000000 from 1,2,3"]);
+    expect(surfaces.loadStateOf(0)).toMatchObject({ coarse: false, within: 2, pixels: 0.5, waiting: false });
+    surfaces.request(0, request(1), false);
+    expect(asked.length).toBe(2);
+    eye.at = [4, 5, 6];
+    surfaces.request(0, request(1), true); // while an isovalue is dragged, the view is not what counts
+    expect(asked.length).toBe(2);
+    surfaces.request(0, request(1), false);
+    await surfaces.settled();
+    expect(asked.slice(2)).toEqual(["1 at most 1000000 from 4,5,6"]);
+    surfaces.request(1, request(1), false); // they share what may be drawn
+    await surfaces.settled();
+    expect(asked.slice(3)).toEqual(["1 at most 20000", "1 at most 500000 from 4,5,6"]);
+  });
+});
+
 describe("surfaces as points", () => {
   const request = (tau: number) => ({ tau, target: null, walls: "all" as const });
   it("come after coarse triangles, and again as triangles", async () => {
@@ -160,11 +196,12 @@ describe("surfaces as points", () => {
 });
 
 describe("the state of a surface", () => {
-  const there = { key: "5 all", triangles: 1234, points: 0, bytes: 0, coarse: true, within: null, walls: null, waiting: true, error: "" };
+  const there = { key: "5 all", triangles: 1234, points: 0, bytes: 0, coarse: true, within: null, pixels: null, walls: null, waiting: true, error: "" };
   it("is its load state in words", () => {
     const shown = shownAt(0, 5);
     expect(noteOf(shown, there)).toBe("at 5, 1,234 triangles, coarse");
     expect(noteOf(shown, { ...there, within: 3.9375 })).toBe("at 5, 1,234 triangles, coarse: exact topology, within 3.938 voxels");
+    expect(noteOf(shown, { ...there, coarse: false, within: 3, pixels: 0.52 })).toBe("at 5, 1,234 triangles: exact topology, within 0.52 pixels");
     expect(noteOf(shown, { ...there, points: 617 })).toBe("at 5, 617 points");
     expect(noteOf({ ...shown, tau: 6 }, there)).toBe("at 6, loading");
     expect(noteOf({ ...shown, visible: false }, there)).toBe("at 5, hidden");

@@ -8,7 +8,8 @@
 namespace isoatlas {
 namespace {
 
-void fill(draco::Mesh& mesh, std::span<const std::array<std::int32_t, 3>> points, std::span<const std::array<std::uint32_t, 3>> triangles) {
+void fill_mesh(draco::Mesh& mesh, std::span<const std::array<std::int32_t, 3>> points,
+               std::span<const std::array<std::uint32_t, 3>> triangles) {
     mesh.set_num_points(static_cast<std::uint32_t>(points.size()));
     mesh.SetNumFaces(triangles.size());
     for (std::uint32_t i = 0; i < triangles.size(); ++i) {
@@ -32,7 +33,7 @@ std::vector<std::byte> draco_mesh(std::span<const std::array<std::int32_t, 3>> p
     encoder.SetSpeedOptions(kSpeed, kSpeed);
     draco::EncoderBuffer buffer;
     draco::Mesh mesh;
-    fill(mesh, points, triangles);
+    fill_mesh(mesh, points, triangles);
     ISOATLAS_CHECK(encoder.EncodeMeshToBuffer(mesh, &buffer).ok());
     const auto bytes = std::as_bytes(std::span(buffer.data(), buffer.size()));
     return {bytes.begin(), bytes.end()};

@@ -15,14 +15,15 @@
 namespace isoatlas {
 namespace {
 
-using Json = nlohmann::ordered_json;
+using OrderedJson = nlohmann::ordered_json;
 
 constexpr std::int32_t kMostOfPosition = (1 << 16) - 1;
+constexpr double kRounding = 1e-4;  // of positions
 
 /// From voxels to nanometres: three rows of four numbers.
 std::vector<double> transform_of(const Geometry& geometry) {
-    constexpr double kMillimetre = 1e-3, kNanometres = 1e9;
-    const double unit = metres_in(geometry.unit).value_or(kMillimetre) * kNanometres;
+    constexpr double kUnknown = 1e-3, kNanometres = 1e9;  // of a metre
+    const double unit = metres_in(geometry.unit).value_or(kUnknown) * kNanometres;
     std::vector<double> rows;
     for (std::size_t row = 0; row < 3; ++row) {
         for (std::size_t axis = 0; axis < 3; ++axis) rows.push_back(geometry.direction[row][axis] * geometry.spacing[axis] * unit);
@@ -37,7 +38,8 @@ std::vector<std::byte> encoded(const OctreeFragment& fragment, double edge) {
     for (const Vec3& p : fragment.points) {
         std::array<std::int32_t, 3>& rounded = points.emplace_back();
         for (std::size_t axis = 0; axis < 3; ++axis) {
-            const double within = (p[axis] / edge - static_cast<double>(fragment.place[axis])) * kMostOfPosition;
+            // Points in the middle plane of a cell, but for rounding, are to be at 32768: readers part cells there.
+            const double within = (p[axis] / edge - static_cast<double>(fragment.place[axis])) * kMostOfPosition + kRounding;
             rounded[axis] = static_cast<std::int32_t>(std::clamp(std::nearbyint(within), 0.0, static_cast<double>(kMostOfPosition)));
         }
     }
@@ -94,17 +96,17 @@ void PrecomputedMeshes::add(const std::string& label, double reported_tau, const
 }
 
 void PrecomputedMeshes::commit() {
-    const Json info{{"@type", "neuroglancer_multilod_draco"},
-                    {"vertex_quantization_bits", 16},
-                    {"transform", transform_of(data_->geometry)},
-                    {"lod_scale_multiplier", 1},
-                    {"segment_properties", "segment_properties"}};
+    const OrderedJson info{{"@type", "neuroglancer_multilod_draco"},
+                           {"vertex_quantization_bits", 16},
+                           {"transform", transform_of(data_->geometry)},
+                           {"lod_scale_multiplier", 1},
+                           {"segment_properties", "segment_properties"}};
     std::vector<std::string> ids;
     for (std::size_t i = 1; i <= data_->labels.size(); ++i) ids.push_back(std::to_string(i));
-    Json properties = Json::array();
+    OrderedJson properties = OrderedJson::array();
     properties.push_back({{"id", "label"}, {"type", "label"}, {"values", data_->labels}});
     properties.push_back({{"id", "isovalue"}, {"type", "number"}, {"data_type", "float32"}, {"values", data_->taus}});
-    const Json listed{{"@type", "neuroglancer_segment_properties"}, {"inline", {{"ids", ids}, {"properties", properties}}}};
+    const OrderedJson listed{{"@type", "neuroglancer_segment_properties"}, {"inline", {{"ids", ids}, {"properties", properties}}}};
     data_->folder.put("segment_properties/info", listed.dump() + "\n");
     data_->folder.put("info", info.dump() + "\n");
     data_->folder.commit();

@@ -99,6 +99,30 @@ TEST_F(LevelsOfStores, HaveWhatWasMade) {
     EXPECT_THROW((void)levels.within(static_cast<std::int64_t>(keys_.size()), 1), Error);
 }
 
+TEST_F(LevelsOfStores, AreFineWhereTheEyeIsNear) {
+    const std::string path = levels_path(path_);
+    (void)make_levels(*atlas_, path, keys_);
+    const Levels levels(path, *atlas_);
+    const ClusterHierarchy own = hierarchy(keys_[0]);
+    for (const double x : {-100.0, 2.0, 12.0, 22.0}) {
+        const Viewpoint from{.eye = {x, 12, 12}, .pixel = 0.01, .near = 1};
+        const std::vector<double> of_groups = pixels_of_groups(own, from);
+        for (const std::int64_t triangles : {std::int64_t{1} << 30, levels.surfaces()[0].triangles / 3, std::int64_t{1}}) {
+            const SeenSurface seen = levels.seen_from(0, from, 0.5, triangles);
+            const auto count = static_cast<std::int64_t>(seen.simplified.surface.triangles.size());
+            EXPECT_LE(count, std::max(triangles, levels.surfaces()[0].coarsest));
+            const double most = std::max(0.5, seen.pixels);
+            const Surface chosen =
+                surface_of_choice(own, [&](std::int64_t group) { return of_groups[static_cast<std::size_t>(group)] <= most; });
+            EXPECT_TRUE(oracle::same(seen.simplified.surface, chosen)) << x << " " << triangles;
+            EXPECT_LE(seen.simplified.distance, levels.surfaces()[0].distance);
+            if (triangles > levels.surfaces()[0].triangles) EXPECT_LE(seen.pixels, 0.5);
+        }
+    }
+    EXPECT_THROW((void)levels.seen_from(0, {.eye = {}, .pixel = 0, .near = 1}, 1, 9), Error);
+    EXPECT_THROW((void)levels.seen_from(0, {.eye = {}, .pixel = 1, .near = 1}, 0, 9), Error);
+}
+
 TEST_F(LevelsOfStores, HaveTheSameBytesHoweverTheyAreMade) {
     const std::string path = levels_path(path_);
     Context one;

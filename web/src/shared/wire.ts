@@ -16,6 +16,8 @@ export interface Mesh {
   coarse: boolean;
   /** of a level of detail: its topology is exact, and it is at most so many voxels from the surface */
   within?: number;
+  /** of a level that is fine where it is near to the eye: no part is seen farther than so many pixels from the surface */
+  pixels?: number;
   /** squares of points: not closed where it is cut */
   isOpen: boolean;
   /** encoded size, before compression by HTTP */

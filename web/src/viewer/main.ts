@@ -161,8 +161,8 @@ class Viewer implements ViewerContext {
     this.shown.show(state);
     this.objectPanel.show(state, dragging);
     this.emptyHint.show(state);
-    this.scene.show(state, before, dragging);
     if (state.view && state.view !== before.view) this.viewport.rig.view = state.view; // all digits: same pixels by link
+    this.scene.show(state, before, dragging); // from there
   }
 }
 

@@ -10,6 +10,12 @@ import { decodeMesh, type Mesh } from "../../shared/wire";
 /** Target of a surface: the object that contains a voxel, the wall of a cavity, or the whole isosurface. */
 export type SurfaceTarget = ({ object: number } | { contour: number }) & { polarity?: Polarity } | null;
 
+/** From where a scene is seen: a point, and how wide a pixel is at a distance of 1. */
+export interface Eye {
+  at: readonly number[];
+  pixel: number;
+}
+
 /** of requests about objects of low values of a page of both */
 export type Polarity = "low" | undefined;
 
@@ -191,9 +197,9 @@ export class Api {
     return response.objects;
   }
 
-  /** maxTriangles: the mesh is simplified to fewer triangles if it has more. */
-  surface(channel: string, tau: number, target: SurfaceTarget, maxTriangles: number, walls: ShellFilter = "all"): Promise<Mesh> {
-    return this.mesh(channel, `tau=${tau}${parameters(target)}${shell(walls)}&max=${maxTriangles}`);
+  /** maxTriangles: the mesh is simplified to fewer triangles if it has more; eye: least where it is near, where there are levels of detail. */
+  surface(channel: string, tau: number, target: SurfaceTarget, maxTriangles: number, walls: ShellFilter = "all", eye?: Eye): Promise<Mesh> {
+    return this.mesh(channel, `tau=${tau}${parameters(target)}${shell(walls)}&max=${maxTriangles}${seenFrom(eye)}`);
   }
 
   /** The points of Dividing Cubes, `divisions` along each axis of a cell, as squares of two triangles. */
@@ -208,7 +214,9 @@ export class Api {
       const response = await this.request(`/api/surface?${query}`, channel);
       const mesh = await decodeMesh(await response.arrayBuffer(), response.headers.get("X-Coarse") === "1");
       const distance = response.headers.get("X-Distance");
-      return distance === null ? mesh : { ...mesh, within: Number(distance) };
+      const pixels = response.headers.get("X-Pixels");
+      if (distance === null) return mesh;
+      return { ...mesh, within: Number(distance), ...(pixels !== null && { pixels: Number(pixels) }) };
     } finally {
       --this.surfaces;
     }
@@ -328,6 +336,10 @@ export type SeveralKind = "surfaces" | "segmentation";
 
 function inUnit(unit: string | null): string {
   return unit === null ? "" : `&unit=${encodeURIComponent(unit)}`;
+}
+
+function seenFrom(eye?: Eye): string {
+  return eye ? `&eye=${eye.at.join(",")}&pixel=${eye.pixel}` : "";
 }
 
 function shell(walls: ShellFilter): string {

@@ -1,5 +1,6 @@
-// Loads surfaces of objects, one channel an object: coarse ones during a drag, full ones when it ends.
-import { ConnectionError, failureText, isSuperseded, type Api, type SurfaceTarget } from "./api";
+// Loads surfaces of objects, one channel an object: coarse ones during a drag, full ones when it ends. Of large ones with levels of detail
+// the full one is fine where the eye is near, and is loaded again from where the eye goes.
+import { ConnectionError, failureText, isSuperseded, type Api, type Eye, type SurfaceTarget } from "./api";
 import { countComponents } from "./count_components";
 import { DIVISIONS } from "../state/points";
 import type { ShellFilter } from "../state/state";
@@ -8,6 +9,8 @@ import type { Mesh } from "../../shared/wire";
 /** triangles */
 const FULL = 100_000_000;
 const COARSE = 20_000;
+/** of all surfaces with levels of detail together */
+const SEEN = 1_000_000;
 
 export interface SurfaceRequest {
   tau: number;
@@ -24,15 +27,17 @@ export interface LoadState {
   points: number;
   bytes: number;
   coarse: boolean;
-  /** coarse: with the topology of the exact surface, at most so many voxels from it; null: without a promise */
+  /** of fewer triangles than the exact surface has: with its topology, at most so many voxels from it; null: without a promise */
   within: number | null;
+  /** no part of it is seen farther than so many pixels from the exact surface, from where it was loaded for; null: it does not depend on that */
+  pixels: number | null;
   /** of walls of cavities: their number; null: not counted */
   walls: number | null;
   waiting: boolean;
   error: string;
 }
 
-const NONE: LoadState = { key: "", triangles: 0, points: 0, bytes: 0, coarse: false, within: null, walls: null, waiting: false, error: "" };
+const NONE: LoadState = { key: "", triangles: 0, points: 0, bytes: 0, coarse: false, within: null, pixels: null, walls: null, waiting: false, error: "" };
 
 class Channel {
   key = "";
@@ -41,6 +46,8 @@ class Channel {
   /** the full surface follows without another request */
   untilFull = false;
   next: SurfaceRequest | null = null;
+  /** of the last mesh: from where it is seen */
+  eye = "";
   loadState = NONE;
 }
 
@@ -54,11 +61,12 @@ export class Surfaces {
   private readonly pending = new Set<Promise<void>>();
   private asPoints = false;
 
-  /** onMesh: null where there is no such surface. */
+  /** onMesh: null where there is no such surface. eye: from where the scene is seen now. */
   constructor(
     private readonly api: Api,
     private readonly onMesh: (entry: number, mesh: Mesh | null, tau: number) => void,
     private readonly onUpdate: (entry: number) => void,
+    private readonly eye: () => Eye | undefined = () => undefined,
   ) {}
 
   loadStateOf(entry: number): LoadState {
@@ -82,7 +90,8 @@ export class Surfaces {
     const [key, { loadState }] = [keyOf(request), channel];
     channel.next = null;
     const isLoading = channel.requested > 0 && (dragging || channel.untilFull);
-    if (channel.key === key && (isLoading || (loadState.key === key && (dragging || !loadState.coarse)))) return;
+    const isDone = loadState.key === key && (dragging || !(loadState.coarse || this.isSeenFromElsewhere(channel)));
+    if (channel.key === key && (isLoading || isDone)) return;
     if (dragging && channel.requested === COARSE) {
       channel.next = request;
       return;
@@ -106,14 +115,22 @@ export class Surfaces {
     while (this.pending.size > 0) await Promise.allSettled(this.pending);
   }
 
+  private isSeenFromElsewhere({ eye, loadState }: Channel): boolean {
+    return loadState.pixels !== null && eye !== JSON.stringify(this.eye());
+  }
+
   private track(work: Promise<void>): void {
     this.pending.add(work);
     void work.finally(() => this.pending.delete(work));
   }
 
   private meshOf(entry: number, { tau, target, walls }: SurfaceRequest, maxTriangles: number): Promise<Mesh> {
+    const channel = this.channels.get(entry) as Channel;
     if (this.asPoints && maxTriangles === FULL) return this.api.points(channelName(entry), tau, target, DIVISIONS, walls);
-    return this.api.surface(channelName(entry), tau, target, maxTriangles, walls);
+    const eye = maxTriangles === FULL && channel.loadState.within !== null ? this.eye() : undefined; // it has levels of detail
+    if (!eye) return this.api.surface(channelName(entry), tau, target, maxTriangles, walls);
+    channel.eye = JSON.stringify(eye);
+    return this.api.surface(channelName(entry), tau, target, Math.floor(SEEN / this.channels.size), walls, eye);
   }
 
   /** levels: maximal numbers of triangles, loaded one after the other. */
@@ -127,7 +144,7 @@ export class Surfaces {
         this.onUpdate(entry);
         const mesh = await this.meshOf(entry, request, maxTriangles);
         if (isStale()) return;
-        const isLast = mesh.isOpen || !(mesh.coarse || this.asPoints); // coarse triangles first, then points
+        const isLast = mesh.isOpen || mesh.pixels !== undefined || !(mesh.coarse || this.asPoints); // coarse triangles first, then points
 
         channel.loadState = {
           key,
@@ -136,6 +153,7 @@ export class Surfaces {
           bytes: mesh.bytes,
           coarse: !isLast,
           within: mesh.within ?? null,
+          pixels: mesh.pixels ?? null,
           walls: request.walls === "cavities" && isLast && !mesh.isOpen ? countComponents(mesh.corners) : null,
           waiting: false,
           error: "",

@@ -202,10 +202,12 @@ export function noteOf(shown: Shown, loadState: LoadState): string {
   else if (shown.walls === "cavities" && loadState.triangles === 0) parts.push("no cavities");
   else if (loadState.walls) parts.push(`${plural(loadState.walls, "cavity", "cavities")}, ${count(loadState.triangles)} triangles`);
   else if (loadState.points > 0) parts.push(`${count(loadState.points)} points`);
-  else if (loadState.triangles > 0) parts.push(`${count(loadState.triangles)} triangles${loadState.coarse ? coarseWords(loadState) : ""}`);
+  else if (loadState.triangles > 0) parts.push(`${count(loadState.triangles)} triangles${distanceWords(loadState)}`);
   return parts.join(", ");
 }
 
-function coarseWords({ within }: LoadState): string {
+function distanceWords({ coarse, within, pixels }: LoadState): string {
+  if (pixels !== null) return `: exact topology, within ${value(pixels)} ${pixels === 1 ? "pixel" : "pixels"}`;
+  if (!coarse) return "";
   return within === null ? ", coarse" : `, coarse: exact topology, within ${value(within)} voxels`;
 }

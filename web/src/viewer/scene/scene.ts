@@ -29,6 +29,7 @@ export class Scene {
       context.api,
       (entry, mesh, tau) => this.onMesh(entry, mesh, tau),
       (entry) => this.listeners.forEach((listener) => listener(entry)),
+      () => context.viewport.eye,
     );
   }
 

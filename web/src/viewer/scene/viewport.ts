@@ -4,6 +4,10 @@ import { cap, dispose } from "./clip";
 import { CameraRig } from "./camera_rig";
 import { clipped, firstHit, type Ray } from "./ray";
 import type { Mesh } from "../../shared/wire";
+import type { Eye } from "../api/api";
+
+/** heights of the view, from where rays are as good as parallel */
+const FAR = 1e4;
 
 type Body = three.Mesh<three.BufferGeometry, three.MeshStandardMaterial>;
 
@@ -129,6 +133,15 @@ export class Viewport {
       colour: `#${body.material.color.getHexString()}`,
       tau: Number(body.userData.tau),
     }));
+  }
+
+  /** From where the scene is seen; of parallel rays from far away. */
+  get eye(): Eye {
+    const { view, height, forward, isFlat, labelUnit, camera } = this.rig;
+    const rows = Math.max(1, this.canvas.height);
+    if (!isFlat) return { at: view.slice(0, 3), pixel: labelUnit / camera.zoom / rows };
+    const away = FAR * height;
+    return { at: view.slice(3).map((x, i) => x - away * forward[i]!), pixel: height / rows / away };
   }
 
   /** Fits all visible surfaces to the view. */
