@@ -33,4 +33,7 @@ struct Response {
     bool may_be_framed = false;             ///< by pages of any site
 };
 
+/// Bytes of a file, or of a mesh.
+[[nodiscard]] inline Response file_answer(std::string bytes) { return {200, "application/octet-stream", std::move(bytes)}; }
+
 }  // namespace isoatlas

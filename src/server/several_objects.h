@@ -23,7 +23,4 @@ struct SeveralObjects {
 /// The file that `isoatlas label --object ... --object ...` writes, without the table beside it.
 [[nodiscard]] Response segmentation_answer(const SeveralObjects& all, const Request& request, const Context& context);
 
-/// Bytes of a file.
-[[nodiscard]] inline Response file_answer(std::string bytes) { return {200, "application/octet-stream", std::move(bytes)}; }
-
 }  // namespace isoatlas

@@ -90,7 +90,7 @@ class Levels(CliTest):
             near, pixels, farthest = seen("&eye=0,0,0&pixel=0.001", budget)
             self.assertLessEqual(max(near, evenly), budget)
             self.assertGreater(pixels, 0)
-            self.assertGreater(farthest, distance)  # coarser than evenly where it is far
+            self.assertGreaterEqual(farthest, distance)  # at least as coarse where it is far
             far, one_pixel, _ = seen("&eye=0,0,1e6&pixel=0.001", budget)
             self.assertLess(far, near)
             self.assertLessEqual(one_pixel, 1)

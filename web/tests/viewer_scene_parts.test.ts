@@ -196,12 +196,14 @@ describe("surfaces as points", () => {
 });
 
 describe("the state of a surface", () => {
-  const there = { key: "5 all", triangles: 1234, points: 0, bytes: 0, coarse: true, within: null, pixels: null, walls: null, waiting: true, error: "" };
+  const nothing = { points: 0, bytes: 0, within: null, pixels: null, walls: null, error: "" };
+  const there = { ...nothing, key: "5 all", triangles: 1234, coarse: true, waiting: true };
   it("is its load state in words", () => {
     const shown = shownAt(0, 5);
     expect(noteOf(shown, there)).toBe("at 5, 1,234 triangles, coarse");
     expect(noteOf(shown, { ...there, within: 3.9375 })).toBe("at 5, 1,234 triangles, coarse: exact topology, within 3.938 voxels");
-    expect(noteOf(shown, { ...there, coarse: false, within: 3, pixels: 0.52 })).toBe("at 5, 1,234 triangles: exact topology, within 0.52 pixels");
+    const seen = { ...there, coarse: false, within: 3, pixels: 0.52 };
+    expect(noteOf(shown, seen)).toBe("at 5, 1,234 triangles: exact topology, within 0.52 pixels");
     expect(noteOf(shown, { ...there, points: 617 })).toBe("at 5, 617 points");
     expect(noteOf({ ...shown, tau: 6 }, there)).toBe("at 6, loading");
     expect(noteOf({ ...shown, visible: false }, there)).toBe("at 5, hidden");

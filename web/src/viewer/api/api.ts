@@ -197,7 +197,7 @@ export class Api {
     return response.objects;
   }
 
-  /** maxTriangles: the mesh is simplified to fewer triangles if it has more; eye: least where it is near, where there are levels of detail. */
+  /** maxTriangles: the mesh is simplified to fewer triangles if it has more; eye: less where it is near, if there are levels of detail. */
   surface(channel: string, tau: number, target: SurfaceTarget, maxTriangles: number, walls: ShellFilter = "all", eye?: Eye): Promise<Mesh> {
     return this.mesh(channel, `tau=${tau}${parameters(target)}${shell(walls)}&max=${maxTriangles}${seenFrom(eye)}`);
   }

@@ -29,7 +29,7 @@ export interface LoadState {
   coarse: boolean;
   /** of fewer triangles than the exact surface has: with its topology, at most so many voxels from it; null: without a promise */
   within: number | null;
-  /** no part of it is seen farther than so many pixels from the exact surface, from where it was loaded for; null: it does not depend on that */
+  /** no part of it is seen farther than so many pixels from the exact surface; null: it does not depend on the view */
   pixels: number | null;
   /** of walls of cavities: their number; null: not counted */
   walls: number | null;
@@ -37,7 +37,18 @@ export interface LoadState {
   error: string;
 }
 
-const NONE: LoadState = { key: "", triangles: 0, points: 0, bytes: 0, coarse: false, within: null, pixels: null, walls: null, waiting: false, error: "" };
+const NONE: LoadState = {
+  key: "",
+  triangles: 0,
+  points: 0,
+  bytes: 0,
+  coarse: false,
+  within: null,
+  pixels: null,
+  walls: null,
+  waiting: false,
+  error: "",
+};
 
 class Channel {
   key = "";
