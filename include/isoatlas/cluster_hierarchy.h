@@ -61,8 +61,8 @@ struct Viewpoint {
 
 /// Of each group: how many pixels what replaces it is at most from the exact surface, as it is seen where its ball comes nearest to the
 /// eye. At least those of the groups that made its clusters: the groups of at most so many pixels are a choice. length: physical, of a unit
-/// of ClusterGroup::distance in the direction where it is longest. Throws Error{usage}: pixel, near or length is not positive. Source: the
-/// saturated error of Cignoni, Montani, Scopigno, A comparison of mesh simplification algorithms, 1998, and of Karis, 2021.
+/// of ClusterGroup::distance in the direction where it is longest. Throws Error{usage}: pixel, near or length is not positive. Source:
+/// Cignoni et al., 2004, and Karis, 2021, as above.
 [[nodiscard]] std::vector<double> pixels_of_groups(const ClusterHierarchy& hierarchy, const Viewpoint& from, double length = 1);
 
 /// The surface of a choice: is_chosen is asked once for each group whose made_of are all chosen. Cost: O(hierarchy).

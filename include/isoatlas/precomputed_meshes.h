@@ -20,8 +20,7 @@ inline constexpr const char* kPrecomputedExtension = ".precomputed";
 /// Source: Neuroglancer, "Mesh representation of segmented object surfaces"; Draco encodes the fragments.
 class PrecomputedMeshes {
 public:
-    /// The folder appears with commit(), whole. Throws Error: resource (something is there already, or it cannot be written), usage (the
-    /// axes do not span space).
+    /// The folder appears with commit(), whole. Throws Error{resource}: something is there already, or it cannot be written.
     PrecomputedMeshes(const std::string& path, const VolumeInfo& info);
     PrecomputedMeshes(const PrecomputedMeshes&) = delete;
     PrecomputedMeshes& operator=(const PrecomputedMeshes&) = delete;

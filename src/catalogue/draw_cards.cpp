@@ -26,14 +26,22 @@ public:
         shared_.set_threads(std::max(1, threads / at_once_));
     }
 
-    /// Calls work(i, context) for i in [begin, end).
-    void each(std::size_t begin, std::size_t end, const std::function<void(std::size_t, const Context&)>& work) {
-        for_each_block(at_once_, static_cast<std::int64_t>(end - begin), [&](std::int64_t block) {
+    /// Calls work(i, context) for i in [begin, end). has_threads: the work uses those of its context, so that of an odd number of cards the
+    /// last one is done by all.
+    void each(std::size_t begin, std::size_t end, bool has_threads, const std::function<void(std::size_t, const Context&)>& work) {
+        const auto one = [&](std::size_t i) {
             stop_if_cancelled(shared_.context());
             if (shared_.is_caller()) report(context_, only_phase(phase_), static_cast<double>(done_) / static_cast<double>(count_));
-            work(begin + static_cast<std::size_t>(block), shared_.context());
+            work(i, shared_.context());
             ++done_;
-        });
+        };
+        const std::size_t alone = has_threads ? (end - begin) % static_cast<std::size_t>(at_once_) : 0;
+        for_each_block(at_once_, static_cast<std::int64_t>(end - begin - alone),
+                       [&](std::int64_t block) { one(begin + static_cast<std::size_t>(block)); });
+        if (alone == 0) return;
+        shared_.set_threads(thread_count(context_.threads));
+        one(end - 1);
+        shared_.set_threads(std::max(1, thread_count(context_.threads) / at_once_));
     }
 
 private:
@@ -61,7 +69,7 @@ void draw_cards(std::size_t cards, const std::function<void(std::size_t, const C
     Cards all("draw", cards, context);
     for (std::size_t begin = 0, end = kFirstCards; begin < cards; begin = end, end *= 2) {
         const std::size_t last = std::min(end, cards);
-        all.each(begin, last, draw);
+        all.each(begin, last, true, draw);
         drawn(last);
     }
 }
@@ -73,7 +81,7 @@ std::vector<CoarseSurface> coarse_cards(std::vector<std::optional<CoarseSurface>
         if (!coarse[i]) missing.push_back(i);
     }
     Cards all("reduce surfaces", missing.size(), context);
-    all.each(0, missing.size(), [&](std::size_t place, const Context& own) {
+    all.each(0, missing.size(), false, [&](std::size_t place, const Context& own) {
         coarse[missing[place]] = coarse_for_page(surface_of(missing[place], own), own);
     });
     std::vector<CoarseSurface> surfaces;

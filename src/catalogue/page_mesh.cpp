@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/cancel.h"
+#include "base/check.h"
 #include "formats/common/base64.h"
 #include "preview/coarse_surface.h"
 #include "preview/collapse_edges.h"
@@ -17,8 +18,10 @@ constexpr double kSteps = 8192;  ///< positions, along the diagonal: less than a
 constexpr double kFewer = 0.75;  ///< triangles of the next attempt
 
 CoarseSurface reduced(const Surface& surface, std::size_t max, const Context& context) {
-    CoarseSurface result{collapse_edges(surface, max, context), std::ssize(surface.triangles)};
-    if (result.surface.triangles.size() > max) result.surface = coarse_surface(std::move(result.surface), max);
+    CoarseSurface result{collapse_edges(surface, max, context), std::ssize(surface.triangles), true};
+    ISOATLAS_DCHECK(has_same_topology(surface, result.surface));
+    if (result.surface.triangles.size() <= max) return result;
+    result.surface = coarse_surface(std::move(result.surface), max);
     result.keeps_topology = has_same_topology(surface, result.surface);
     return result;
 }

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "formats/common/base64.h"
+#include "preview/coarse_surface.h"
 
 namespace isoatlas {
 namespace {
@@ -21,16 +22,25 @@ void put_frame(const Image& frame, std::int64_t i, Image& strip) {
     for (std::int64_t y = 0; y < frame.height; ++y) std::copy_n(frame.at(0, y), 4 * frame.width, strip.at(i * frame.width, y));
 }
 
+/// From where it is drawn: few triangles tell, and take less time to be looked at from all sides.
+View view_of(const Surface& surface, const Context& context) {
+    constexpr std::size_t kEnough = 20'000;
+    Scene scene;
+    scene.objects.push_back({.surface = coarse_surface(surface, kEnough)});
+    if (scene.objects[0].surface.triangles.empty()) scene.objects[0].surface = surface;
+    return best_view(scene, {0, 0, 1}, context);
+}
+
 }  // namespace
 
 Turntable draw_turntable(Surface surface, const Colour& colour, const PageOptions& options, const Context& context) {
     Turntable result;
     if (surface.triangles.empty()) return result;
+    const View best = view_of(surface, context);
     Scene scene;
     scene.objects.push_back({.surface = std::move(surface), .colour = colour});
     const RenderOptions picture{
         .width = options.picture_size, .height = options.picture_size, .background = Background::transparent, .samples = 3};
-    const View best = best_view(scene, {0, 0, 1}, context);
     std::vector<Camera> cameras;
     for (std::int64_t i = 0; i < options.frames; ++i) {
         const double degrees = 360 * static_cast<double>(i) / static_cast<double>(options.frames);

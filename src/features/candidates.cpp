@@ -1,7 +1,9 @@
 #include "features/candidates.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <map>
 #include <numeric>
@@ -19,6 +21,8 @@ namespace {
 constexpr double kLargePart = 0.15;  // of the volume: a branch that ends so large is everything but background
 
 constexpr double kShownPart = 0.01;  // of the hypervolume of an object: where less is left, an isovalue does not show it
+
+constexpr std::size_t kMostOfBytes = 1024;  // histograms that are counted by value first, 2 kB each
 
 constexpr IsovalueReason kOutline = IsovalueReason::outline;
 
@@ -79,9 +83,14 @@ private:
             result.emplace_back(kept[k], std::max(b.merges, lowest()), b.appears, integer, axis_);
         }
         const IdArray<EventId, Slot> of_event = slots_of_events(slot);
-        tree_.for_heights(volume_, at_random(), [&](VoxelId v, double height) {
-            const Slot k = of_event[tree_.zone(v)];
-            if (k != kNoSlot) result[k].add(height, 1);
+        visit_samples(volume_, [&]<class T>(std::span<const T> samples) {
+            if constexpr (sizeof(T) == 1) {
+                if (result.size() <= kMostOfBytes) return add_bytes(samples, of_event, result);
+            }
+            tree_.for_heights(volume_, at_random(), [&](VoxelId v, double height) {
+                const Slot k = of_event[tree_.zone(v)];
+                if (k != kNoSlot) result[k].add(height, 1);
+            });
         });
         for (const BranchId i : streamed<BranchId>(branches_.branch.size(), {sizeof(Branch) + at_random().bytes})) {
             const Branch& b = branches_.branch[i];
@@ -89,6 +98,21 @@ private:
             if (k != kNoSlot) result[k].add(b.merges, static_cast<double>(b.voxels));
         }
         return result;
+    }
+    /// The own voxels, counted by their value first: samples of a byte have few.
+    template <class T>
+    void add_bytes(std::span<const T> samples, const IdArray<EventId, Slot>& of_event, std::vector<BranchHistogram>& histograms) const {
+        std::vector<std::array<std::int64_t, 256>> counts(histograms.size());
+        for (const VoxelId v : streamed<VoxelId>(samples.size(), {sizeof(T) + sizeof(Id) + at_random().bytes})) {
+            const Slot k = of_event[tree_.zone(v)];
+            if (k != kNoSlot) ++counts[k][static_cast<std::uint8_t>(samples[v.index()])];
+        }
+        for (std::size_t k = 0; k < counts.size(); ++k) {
+            for (std::size_t i = 0; i < counts[k].size(); ++i) {
+                const auto sample = static_cast<double>(static_cast<T>(static_cast<std::uint8_t>(i)));
+                if (counts[k][i] > 0) histograms[k].add(tree_.sign * sample, static_cast<double>(counts[k][i]));
+            }
+        }
     }
     /// One access a voxel instead of two far ones.
     [[nodiscard]] IdArray<EventId, Slot> slots_of_events(const IdArray<BranchId, Slot>& slot) const {

@@ -11,7 +11,7 @@ double part_of(std::int64_t some, std::int64_t all) { return all == 0 ? 0 : stat
 
 }  // namespace
 
-std::size_t SampleCounter::add_run(double value, std::int64_t length) {
+std::size_t SampleCounter::place_of(double value) {
     if (values_.empty() || values_[last_].value != value) {
         const auto place = std::ranges::lower_bound(ascending_, value, {}, [&](std::size_t i) { return values_[i].value; });
         if (place != ascending_.end() && values_[*place].value == value) {
@@ -26,9 +26,6 @@ std::size_t SampleCounter::add_run(double value, std::int64_t length) {
             return kMost;
         }
     }
-    values_[last_].count += length;
-    values_[last_].pairs += length - 1;
-    pairs_ += length - 1;
     return last_;
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <span>
@@ -21,14 +22,30 @@ public:
     [[nodiscard]] SampleSurvey survey() const;
 
 private:
-    static constexpr std::size_t kMost = SampleSurvey::kMostValues;
+    static constexpr std::size_t kMost = SampleSurvey::kMostValues, kUnknown = kMost + 1;
+    static constexpr std::array<std::size_t, 256> unknown_bytes() {
+        std::array<std::size_t, 256> all{};
+        all.fill(kUnknown);
+        return all;
+    }
     struct Value {
         double value;
         std::int64_t count = 0, pairs = 0;
     };
 
-    /// A run of equal samples: which value, by order of appearance; kMost: there are too many different ones.
-    std::size_t add_run(double value, std::int64_t length);
+    /// Which value it is, by order of appearance; kMost: there are too many different ones.
+    std::size_t place_of(double value);
+    /// The same for samples of a byte, without a search where it is known.
+    std::size_t place_of_byte(double value, std::uint8_t byte) {
+        std::size_t& known = of_byte_[byte];
+        if (known == kUnknown) known = place_of(value);
+        return known;
+    }
+    void count_run(std::size_t place, std::int64_t length) {
+        values_[place].count += length;
+        values_[place].pairs += length - 1;
+        pairs_ += length - 1;
+    }
     void look_at_end(double value, std::int64_t length);
 
     SampleSurvey ends_;  ///< samples, missing, low, high
@@ -36,6 +53,7 @@ private:
     std::vector<Value> values_;           ///< in order of appearance
     std::vector<std::size_t> ascending_;  ///< of values_
     std::size_t last_ = 0;                ///< of values_: runs often alternate
+    std::array<std::size_t, 256> of_byte_ = unknown_bytes();
     std::int64_t pairs_ = 0;
     std::vector<std::int64_t> unequal_;  ///< [i * kMost + j]: pairs of neighbours, i appears first
 };
@@ -56,7 +74,13 @@ void SampleCounter::look(std::span<const T> row) {
         const auto length = static_cast<std::int64_t>(end - i);
         look_at_end(static_cast<double>(sample), length);
         if (has_few_) {
-            const std::size_t at = add_run(static_cast<double>(sample), length);
+            std::size_t at = 0;
+            if constexpr (sizeof(T) == 1) {
+                at = place_of_byte(static_cast<double>(sample), static_cast<std::uint8_t>(sample));
+            } else {
+                at = place_of(static_cast<double>(sample));
+            }
+            if (at < kMost) count_run(at, length);
             if (before < kMost && at < kMost) ++pairs_, ++unequal_[std::min(before, at) * kMost + std::max(before, at)];
             before = at;
         }

@@ -88,7 +88,7 @@ void PrecomputedMeshes::add(const std::string& label, double reported_tau, const
         for (const std::uint32_t size : sizes) out.put(size);
     }
     out.finish();
-    data_->labels.push_back(label);
+    data_->labels.push_back(one_line(label));
     data_->taus.push_back(reported_tau);
     const std::string name = std::to_string(data_->labels.size());
     data_->folder.put(name + ".index", manifest.bytes());

@@ -154,7 +154,7 @@ TEST(PrecomputedMeshes, have_the_space_of_the_volume_in_nanometres) {
     meshes.volume.info.geometry = {
         .spacing = {2, 3, 4}, .origin = {10, 20, 30}, .direction = {{{0, 1, 0}, {-1, 0, 0}, {0, 0, 1}}}, .unit = "µm"};
     PrecomputedMeshes writer(folder / "field.precomputed", meshes.volume.info);
-    writer.add("two \"balls\"", 0.25, meshes.octree);
+    writer.add("two \"balls\" of 5 \xb5m", 0.25, meshes.octree);
     writer.commit();
     const auto json = [&](const std::string& name) { return nlohmann::json::parse(read_bytes(folder / ("field.precomputed/" + name))); };
     const nlohmann::json info = json("info"), listed = json("segment_properties/info")["inline"];
@@ -163,7 +163,7 @@ TEST(PrecomputedMeshes, have_the_space_of_the_volume_in_nanometres) {
     const std::vector<double> wanted{0, 3e3, 0, 1e4, -2e3, 0, 0, 2e4, 0, 0, 4e3, 3e4};
     for (std::size_t i = 0; i < 12; ++i) EXPECT_NEAR(info["transform"][i].get<double>(), wanted[i], 1e-9) << i;
     EXPECT_EQ(listed["ids"], nlohmann::json({"1"}));
-    EXPECT_EQ(listed["properties"][0]["values"][0], "two \"balls\"");
+    EXPECT_EQ(listed["properties"][0]["values"][0], "two \"balls\" of 5 µm");
     EXPECT_EQ(listed["properties"][1]["values"][0], 0.25);
 }
 
