@@ -141,7 +141,9 @@ Response Service::answer_known(const Request& request) {
 
 Response Service::samples_answer(const Request& request, Response (*make)(const Atlas&, const Request&, const Context&)) {
     const std::unique_ptr<JobQueue::Job> job = acquire_job(QueueClass::samples, request);
-    return make(atlas(request), request, context_of(*job));
+    const Context context = context_of(*job);
+    stop_if_cancelled(context);  // other threads may read a few bricks before this one looks
+    return make(atlas(request), request, context);
 }
 
 Response Service::at_answer(const Request& request) {
