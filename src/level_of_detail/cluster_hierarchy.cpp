@@ -15,8 +15,6 @@
 namespace isoatlas {
 namespace {
 
-constexpr std::size_t kMaxOfExact = std::size_t{1} << 29;  // triangles: clusters and corners of a group have numbers of 32 bits
-
 struct Level {
     GroupGrid grid;
     double step;  ///< between a group and what replaces it
@@ -133,11 +131,7 @@ ClusterHierarchy make_clusters(const Surface& surface, const Geometry& geometry,
     if (options.triangles < 1 || options.clusters < 1) {
         throw Error(ErrorKind::usage, {.what = "the size of clusters or groups is not positive", .expected = "1 or more"});
     }
-    if (surface.triangles.size() >= kMaxOfExact) {
-        throw Error(ErrorKind::resource, {.what = "the surface has " + std::to_string(surface.triangles.size()) + " triangles",
-                                          .expected = "fewer than 2^29 triangles",
-                                          .next = "make the clusters of its objects one by one"});
-    }
+    require_few_triangles(surface);
     ClusterHierarchy hierarchy{.surface = surface, .clusters = {}, .groups = {}, .unit = options.unit};
     if (surface.triangles.empty()) return hierarchy;
     const SurfaceFrame frame(surface, geometry, extent, options.unit);

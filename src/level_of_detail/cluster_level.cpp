@@ -3,10 +3,19 @@
 #include <numeric>
 
 #include "base/parallel.h"
+#include "isoatlas/error.h"
 #include "level_of_detail/cluster_groups.h"
 #include "level_of_detail/simplify_group.h"
 
 namespace isoatlas {
+
+void require_few_triangles(const Surface& surface) {
+    constexpr std::size_t kMost = std::size_t{1} << 29;
+    if (surface.triangles.size() < kMost) return;
+    throw Error(ErrorKind::resource, {.what = "the surface has " + std::to_string(surface.triangles.size()) + " triangles",
+                                      .expected = "fewer than 2^29 triangles",
+                                      .next = "take its objects one by one"});
+}
 
 ClusterLevels::ClusterLevels(ClusterHierarchy& hierarchy, Versions& versions, const Context& context)
     : hierarchy_(hierarchy), versions_(versions), context_(context), current_(hierarchy.clusters.size()) {

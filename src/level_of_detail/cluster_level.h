@@ -10,6 +10,9 @@
 
 namespace isoatlas {
 
+/// Throws Error{resource} for a surface of 2^29 triangles or more: corners of a group have numbers of 32 bits.
+void require_few_triangles(const Surface& surface);
+
 class ClusterLevels {
 public:
     ClusterLevels(ClusterHierarchy& hierarchy, Versions& versions, const Context& context);

@@ -19,7 +19,6 @@ using Place = std::array<std::int64_t, 3>;
 constexpr double kRounding = 1e-5;   // voxels; less than points are from the planes where they do not lie in them
 constexpr std::int64_t kFew = 1000;  // triangles of one cell that need no coarser level
 constexpr std::int64_t kMostLevels = 16;
-constexpr std::size_t kMaxOfExact = std::size_t{1} << 29;
 
 /// Along a Z-order curve, x fastest.
 struct ZOrder {
@@ -212,11 +211,7 @@ void require(const Surface& surface, const Geometry& geometry, const OctreeOptio
         throw Error(ErrorKind::unsupported, {.what = "the samples are unevenly spaced, and the cells of an octree are not",
                                              .next = "resample the volume, or write .glb"});
     }
-    if (surface.triangles.size() >= kMaxOfExact) {
-        throw Error(ErrorKind::resource, {.what = "the surface has " + std::to_string(surface.triangles.size()) + " triangles",
-                                          .expected = "fewer than 2^29 triangles",
-                                          .next = "make the meshes of its objects one by one"});
-    }
+    require_few_triangles(surface);
 }
 
 }  // namespace

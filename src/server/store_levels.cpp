@@ -33,7 +33,7 @@ bool is_there(const std::string& path) {
 }  // namespace
 
 std::optional<SeenSurface> StoreLevels::find(const Atlas& atlas, const SurfaceOptions& options, double tau, const MeshWanted& wanted) {
-    constexpr double kPixels = 1;
+    constexpr double kWantedPixels = 1;
     const std::optional<LevelsKey> key = key_of(options, tau);
     if (!key) return std::nullopt;
     const Polarity polarity = polarity_of(atlas.info());
@@ -44,7 +44,7 @@ std::optional<SeenSurface> StoreLevels::find(const Atlas& atlas, const SurfaceOp
     });
     const std::int64_t found = side.levels ? side.levels->find(*key) : -1;
     if (found < 0 || side.levels->surfaces()[static_cast<std::size_t>(found)].triangles <= wanted.triangles) return std::nullopt;
-    if (wanted.from) return side.levels->seen_from(found, *wanted.from, kPixels, wanted.triangles);
+    if (wanted.from) return side.levels->seen_from(found, *wanted.from, kWantedPixels, wanted.triangles);
     return SeenSurface{side.levels->at_most(found, wanted.triangles), 0};
 }
 
