@@ -132,9 +132,7 @@ std::vector<ChosenObject> Sides::first(std::int64_t count) {
     return arguments_.polarity == PolarityChoice::both ? find(first_of_both(count)) : directory().first(count);
 }
 
-std::vector<ChosenObject> Sides::first_or_refuse(std::int64_t count) {
-    std::vector<ChosenObject> found = first(count);
-    if (!found.empty()) return found;
+void Sides::refuse_without_objects() const {
     throw Error(ErrorKind::not_found,
                 {.file = arguments_.file,
                  .what = "no object of this volume is above the noise level",

@@ -44,8 +44,8 @@ public:
                                                           const std::optional<double>& typed = {});
     /// The first lines of the table, with --polarity both of the list of both, that show more than background, if there are any.
     [[nodiscard]] std::vector<ChosenObject> first(std::int64_t count);
-    /// The same. Throws Error{not_found} where there are none.
-    [[nodiscard]] std::vector<ChosenObject> first_or_refuse(std::int64_t count);
+    /// There are none, and nothing else was chosen: Error{not_found}.
+    [[noreturn]] void refuse_without_objects() const;
     /// Of the sources that are open.
     void release_trees();
 

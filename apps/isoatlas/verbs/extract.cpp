@@ -52,7 +52,8 @@ std::vector<ChosenObject> chosen_objects(const Arguments& arguments, Sides& side
     for (ChosenObject& contour : sides.find_contours(arguments.contours, arguments.tau)) chosen.push_back(std::move(contour));
     const std::int64_t top = arguments.top > 0 ? arguments.top : arguments.best && arguments.objects.empty() ? 1 : 0;
     if (top == 0) return chosen;
-    std::vector<ChosenObject> first = sides.first_or_refuse(top);
+    std::vector<ChosenObject> first = sides.first(top);
+    if (first.empty()) sides.refuse_without_objects();
     const auto is_chosen = [&](const ChosenObject& object) {
         return std::ranges::any_of(chosen, [&](const ChosenObject& other) {
             return !other.is_contour && other.polarity == object.polarity && other.voxel == object.voxel && other.tau == object.tau;

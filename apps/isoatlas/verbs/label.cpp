@@ -121,8 +121,9 @@ Json segment_json(const LabelledObject& one) {
 ChosenLabels make_chosen_labels(const Arguments& arguments, Sides& sides) {
     std::vector<ChosenObject> chosen = sides.find(arguments.objects, arguments.tau);
     if (arguments.top > 0) {
-        for (ChosenObject& object : sides.first_or_refuse(arguments.top)) chosen.push_back(std::move(object));
+        for (ChosenObject& object : sides.first(arguments.top)) chosen.push_back(std::move(object));
     }
+    if (chosen.empty()) sides.refuse_without_objects();
     return chosen_labels(arguments, sides, chosen);
 }
 

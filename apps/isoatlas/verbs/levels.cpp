@@ -19,7 +19,8 @@ constexpr std::int64_t kUsual = 8;  ///< objects
 std::vector<ChosenObject> prepared_objects(const Arguments& arguments, Sides& sides) {
     std::vector<ChosenObject> chosen = sides.find(arguments.objects);
     if (!arguments.objects.empty() && arguments.top == 0) return chosen;
-    for (ChosenObject& object : sides.first_or_refuse(arguments.top > 0 ? arguments.top : kUsual)) chosen.push_back(std::move(object));
+    for (ChosenObject& object : sides.first(arguments.top > 0 ? arguments.top : kUsual)) chosen.push_back(std::move(object));
+    if (chosen.empty()) sides.refuse_without_objects();
     return chosen;
 }
 
