@@ -52,7 +52,7 @@ def processor(head):
 
 def machine():
     commit = subprocess.run(["git", "rev-parse", "--short=8", "HEAD"], capture_output=True, text=True).stdout.strip()
-    return {"processor": of_processor("model name") or platform.machine(), "vectors": vectors(), "processors": os.cpu_count(),
+    return {"processor": of_processor("model name") or platform.machine(), "vectors": vectors(), "processors": len(os.sched_getaffinity(0)),
             "date": datetime.date.today().isoformat(), "commit": commit}
 
 

@@ -48,7 +48,8 @@ Run run(const isoatlas::Volume& volume, int threads, isoatlas::Interpolant inter
     const Clock::time_point start = Clock::now();
     const isoatlas::Analysis analysis = isoatlas::analyse(volume, {.interpolant = interpolant}, context);
     const double seconds = since(start);
-    return {seconds, answer_of(analysis), phases.phases()};
+    PhaseClock::Phases found = phases.phases();
+    return {seconds, answer_of(analysis), std::move(found)};
 }
 
 void require_equal(const Answer& answer, const Answer& other) {

@@ -9,6 +9,7 @@
 #include "analysis/active_index.h"
 #include "base/cancel.h"
 #include "field/order.h"
+#include "field/require_isovalue.h"
 #include "isoatlas/environment.h"
 
 namespace isoatlas {
@@ -26,11 +27,6 @@ struct ActiveIndex::Data {
 namespace {
 
 constexpr std::size_t kBetweenLooks = 4096;  // objects
-
-void require_finite(double tau) {
-    if (std::isfinite(tau)) return;
-    throw Error(ErrorKind::usage, {.what = "the isovalue is not a finite number", .next = "give a finite isovalue"});
-}
 
 /// A store whose checksums are right can still hold trees that no volume has.
 [[noreturn]] void contradiction() {
@@ -211,23 +207,23 @@ ActiveIndex::~ActiveIndex() = default;
 
 ActiveObjects ActiveIndex::at(double tau, const ActiveOptions& options, const Context& context) const {
     const EnvironmentScope scope(context);
-    require_finite(tau);
+    require_isovalue(tau);
     return data_->at(tau, options, context);
 }
 
 ObjectChanges ActiveIndex::changes(double tau, double other_tau, bool all) const {
-    require_finite(tau);
-    require_finite(other_tau);
+    require_isovalue(tau);
+    require_isovalue(other_tau);
     return data_->changes(std::max(tau, other_tau), std::min(tau, other_tau), all);
 }
 
 std::int64_t ActiveIndex::object_of(const VoxelValue& maximum, double tau) const {
-    require_finite(tau);
+    require_isovalue(tau);
     return data_->object_of(maximum, tau);
 }
 
 std::optional<std::int64_t> ActiveIndex::cavity_of(const VoxelValue& minimum, double tau) const {
-    require_finite(tau);
+    require_isovalue(tau);
     return data_->cavity_of(minimum, tau);
 }
 

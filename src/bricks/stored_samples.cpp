@@ -12,6 +12,7 @@
 #include "bricks/brick_layout.h"
 #include "bricks/brick_part.h"
 #include "bricks/brick_samples.h"
+#include "field/require_isovalue.h"
 #include "isoatlas/error.h"
 #include "levelset/threshold.h"
 
@@ -32,14 +33,14 @@ public:
     [[nodiscard]] SampleView view() const override { return {info_, array_.data(), layout_.by_voxel()}; }
 
     [[nodiscard]] StoredLevel classify(double tau, const Context& context, LevelQuery& query) override {
-        require_finite(tau);
+        require_isovalue(tau);
         const std::lock_guard lock(mutex_);
         const Threshold<T> threshold = threshold_for<T>(tau);
         return classify_part(BrickPart(grid_), threshold, context, query).level;
     }
 
     std::int64_t reclassify(KeptLevel& kept, double tau, const Context& context, LevelQuery& query) override {
-        require_finite(tau);
+        require_isovalue(tau);
         const std::lock_guard lock(mutex_);
         const Threshold<T> threshold = threshold_for<T>(tau);
         const std::optional<double> before = std::exchange(kept.tau, tau);
@@ -160,11 +161,6 @@ private:
         for (std::int64_t z = 0; z < size[2]; ++z) {
             for (std::int64_t y = 0; y < size[1]; ++y, from += size[0]) std::copy_n(from, size[0], samples() + layout_.row(brick, y, z));
         }
-    }
-
-    static void require_finite(double tau) {
-        if (std::isfinite(tau)) return;
-        throw Error(ErrorKind::usage, {.what = "the isovalue is not a finite number", .next = "give a finite isovalue"});
     }
 
     /// For bricks in ascending order; adjacent ones are merged into one call.

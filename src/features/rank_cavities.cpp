@@ -1,6 +1,5 @@
 // The table of cavities, and their labels.
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <numeric>
 
@@ -9,6 +8,7 @@
 #include "features/noise.h"
 #include "features/rank.h"
 #include "field/order.h"
+#include "field/require_isovalue.h"
 #include "isoatlas/active.h"
 #include "isoatlas/cavities.h"
 #include "isoatlas/environment.h"
@@ -150,8 +150,7 @@ CavityTable rank_cavities(const VolumeView& volume, const Analysis& analysis, co
 std::vector<std::uint32_t> label_cavities(const Volume& volume, const Analysis& analysis, double tau, std::vector<std::int64_t>& ids,
                                           const Context& context) {
     const EnvironmentScope scope(context);
-    if (!std::isfinite(tau))
-        throw Error(ErrorKind::usage, {.what = "the isovalue is not a finite number", .next = "give a finite isovalue"});
+    require_isovalue(tau);
     require_same_volume(volume, analysis);
     return analysis.data().visit([&](const auto& held) {
         return label(volume, held.arrays, make_sublevel_tree(VolumeView(volume), held.arrays, context), tau, ids);

@@ -1,9 +1,9 @@
 #include "levelset/high_bits.h"
 
 #include <bit>
-#include <cmath>
 #include <cstring>
 
+#include "field/require_isovalue.h"
 #include "field/slab_work.h"
 #include "levelset/level_bricks.h"
 #include "levelset/threshold.h"
@@ -63,9 +63,7 @@ HighBits::HighBits(const LevelBricks& bricks)
       zero_row_(static_cast<std::size_t>(stride())) {}
 
 HighBits classify(const Volume& volume, double tau, const Context& context) {
-    if (!std::isfinite(tau)) {
-        throw Error(ErrorKind::usage, {.what = "the isovalue is not a finite number", .next = "give a finite isovalue"});
-    }
+    require_isovalue(tau);
     HighBits high(volume.info.extent);
     visit_samples(volume, [&](auto samples) {
         using T = typename decltype(samples)::value_type;

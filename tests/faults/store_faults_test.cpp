@@ -15,15 +15,15 @@ namespace {
 
 using test::Query;
 
-constexpr const char* kPath = "noise.atlas";
+constexpr const char* kNoise = "noise.atlas";
 constexpr double kTau = 24.5;
 
 class StoreFaults : public testing::Test {
 protected:
     StoreFaults() {
         const ReplacedFileSystem in_use(memory_);
-        build_atlas(kPath, make_phantom("noise", {.size = 34, .quantise = 32}));
-        const Atlas atlas(kPath);
+        build_atlas(kNoise, make_phantom("noise", {.size = 34, .quantise = 32}));
+        const Atlas atlas(kNoise);
         queries_ = test::queries(kTau, atlas.cut(kTau).objects.at(3).id);
         for (const Query& query : queries_) right_.push_back(query.ask(atlas));
     }
@@ -35,7 +35,7 @@ protected:
 
 void expect_says_where(const Error& error, std::int64_t at) {
     EXPECT_EQ(error.kind(), ErrorKind::input) << at;
-    EXPECT_EQ(error.text().file, kPath) << at;
+    EXPECT_EQ(error.text().file, kNoise) << at;
     EXPECT_NE(error.text().what.find("Input/output error"), std::string::npos) << at << ": " << error.what();
     EXPECT_FALSE(error.text().next.empty()) << at;
 }
@@ -44,7 +44,7 @@ TEST_F(StoreFaults, ShortAndInterruptedReadsDoNotMatter) {
     for (const std::size_t max : {std::size_t{7}, std::size_t{97}, std::size_t{4096}}) {
         test::FaultyFiles disk({.max = max}, memory_);
         const ReplacedFileSystem in_use(disk);
-        const Atlas atlas(kPath);
+        const Atlas atlas(kNoise);
         for (std::size_t q = 0; q < queries_.size(); ++q) EXPECT_TRUE(queries_[q].ask(atlas) == right_[q]) << queries_[q].name;
         EXPECT_GT(disk.operations(), 100);
     }
@@ -57,7 +57,7 @@ TEST_F(StoreFaults, EveryOperationThatFailsIsTold) {
             test::FaultyFiles disk({.at = at}, memory_);
             const ReplacedFileSystem in_use(disk);
             try {
-                const Atlas atlas(kPath);
+                const Atlas atlas(kNoise);
                 EXPECT_TRUE(queries_[q].ask(atlas) == right_[q]) << queries_[q].name;
                 EXPECT_FALSE(disk.has_failed()) << queries_[q].name << ": operation " << at << " failed and nobody said so";
             } catch (const Error& error) {
@@ -75,7 +75,7 @@ TEST_F(StoreFaults, AfterAFailureTheSameStoreAnswersAgain) {
         for (std::int64_t at = 0; failed; ++at) {
             test::FaultyFiles disk({}, memory_);
             const ReplacedFileSystem in_use(disk);
-            const Atlas atlas(kPath);
+            const Atlas atlas(kNoise);
             disk.restart({.at = at});
             try {
                 (void)queries_[q].ask(atlas);
@@ -92,8 +92,8 @@ TEST_F(StoreFaults, AfterAFailureTheSameStoreAnswersAgain) {
 
 TEST_F(StoreFaults, AFileThatBecomesShorterIsTold) {
     const ReplacedFileSystem in_use(memory_);
-    const Atlas atlas(kPath);
-    memory_.content(kPath).resize(3000);
+    const Atlas atlas(kNoise);
+    memory_.content(kNoise).resize(3000);
     for (std::size_t q = 1; q < queries_.size(); ++q) EXPECT_THROW((void)queries_[q].ask(atlas), Error) << queries_[q].name;
 }
 
@@ -109,11 +109,11 @@ TEST_F(StoreFaults, QueriesWriteNothing) {
         FileSystem& below_;
     } disk(memory_);
     const ReplacedFileSystem in_use(disk);
-    const std::string before = memory_.content(kPath);
-    EXPECT_TRUE(is_atlas(kPath));
-    const Atlas atlas(kPath);
+    const std::string before = memory_.content(kNoise);
+    EXPECT_TRUE(is_atlas(kNoise));
+    const Atlas atlas(kNoise);
     for (std::size_t q = 0; q < queries_.size(); ++q) EXPECT_TRUE(queries_[q].ask(atlas) == right_[q]) << queries_[q].name;
-    EXPECT_TRUE(memory_.content(kPath) == before);
+    EXPECT_TRUE(memory_.content(kNoise) == before);
     EXPECT_EQ(memory_.count(), 1U);
     try {
         build_atlas("new.atlas", atlas.volume());

@@ -18,18 +18,18 @@ struct Query {
 };
 
 /// Bytes of numbers, one behind the other.
-class Answer {
+class AnswerBytes {
 public:
     template <class N, class Memory>
-    Answer& add(const std::vector<N, Memory>& numbers) {
+    AnswerBytes& add(const std::vector<N, Memory>& numbers) {
         return add_bytes(std::as_bytes(std::span<const N>(numbers)));
     }
     template <class... N>
-    Answer& add_numbers(const N&... numbers) {
+    AnswerBytes& add_numbers(const N&... numbers) {
         (add_bytes(std::as_bytes(std::span<const N, 1>(&numbers, 1))), ...);
         return *this;
     }
-    Answer& add_bytes(std::span<const std::byte> bytes) {
+    AnswerBytes& add_bytes(std::span<const std::byte> bytes) {
         text_.append(reinterpret_cast<const char*>(bytes.data()), bytes.size()) += '|';
         return *this;
     }
@@ -40,7 +40,7 @@ private:
 };
 
 inline std::string bytes_of_cut(const Cut& cut) {
-    Answer answer;
+    AnswerBytes answer;
     answer.add_numbers(cut.tau, cut.tunnel_height, cut.active_cells).add(cut.label);
     for (const CutObject& o : cut.objects)
         answer.add_numbers(o.id, o.chi, o.b1, o.b2, o.voxels, o.measure, o.box_low, o.box_high, o.first_contour, o.contour_count);
@@ -49,14 +49,14 @@ inline std::string bytes_of_cut(const Cut& cut) {
 }
 
 inline std::string bytes_of_surface(const Surface& s) {
-    Answer answer;
+    AnswerBytes answer;
     answer.add(s.points).add(s.normals).add(s.triangles).add(s.segments).add(s.object).add(s.contour);
     answer.add_numbers(s.tau, s.reported_tau, s.closed, s.interpolant, s.tunnel_height, s.reported_tunnel_height);
     return answer.text() + s.space + s.unit;
 }
 
 inline std::string bytes_of_analysis(const Analysis& analysis) {
-    Answer answer;
+    AnswerBytes answer;
     answer.add_numbers(analysis.interpolant(), analysis.tunnel_height());
     for (const ElementId i : ids<ElementId>(analysis.element_count())) {
         const Element e = analysis.element(i);
@@ -88,7 +88,7 @@ inline std::vector<Query> queries(double tau, std::int64_t voxel) {
              [](const Atlas& atlas) {
                  Contents contents;
                  contents.volume = atlas.info();
-                 return to_json(contents) + Answer().add_numbers(atlas.range(), atlas.file_bytes(), atlas.tunnel_height()).text();
+                 return to_json(contents) + AnswerBytes().add_numbers(atlas.range(), atlas.file_bytes(), atlas.tunnel_height()).text();
              }},
             {"cut", [=](const Atlas& atlas) { return bytes_of_cut(atlas.cut(tau, {.label = true}, context)); }},
             {"surface", [=](const Atlas& atlas) { return bytes_of_surface(atlas.extract(tau, {}, context)); }},
@@ -97,7 +97,7 @@ inline std::vector<Query> queries(double tau, std::int64_t voxel) {
             {"samples",
              [=](const Atlas& atlas) {
                  const Volume volume = atlas.volume(context);
-                 return Answer().add(std::vector<std::byte>(volume.bytes.begin(), volume.bytes.end())).text();
+                 return AnswerBytes().add(std::vector<std::byte>(volume.bytes.begin(), volume.bytes.end())).text();
              }},
             {"check", [=](const Atlas& atlas) {
                  atlas.check(context);

@@ -12,7 +12,7 @@
 namespace oracle {
 namespace {
 
-void check(const Grid& grid) {
+void check_interpolants(const Grid& grid) {
     isoatlas::Context context;
     context.threads = 1;
     const isoatlas::Volume volume = to_volume(grid, isoatlas::ValueType::u8);
@@ -31,7 +31,7 @@ void check_all(int rank, std::array<Index, 3> size, int levels) {
     grid.value.assign(static_cast<std::size_t>(grid.voxels()), 0);
     std::mt19937_64 random(std::random_device{}());
     for (;;) {
-        ASSERT_NO_FATAL_FAILURE(for_one_image(grid, random, check));
+        ASSERT_NO_FATAL_FAILURE(for_one_image(grid, random, check_interpolants));
         std::size_t digit = 0;
         while (digit < grid.value.size() && grid.value[digit] == levels - 1) grid.value[digit++] = 0;
         if (digit == grid.value.size()) return;
@@ -50,7 +50,7 @@ TEST(EngineEqualsTheOracle, OnAllOrdersOfACell) {
     std::iota(grid.value.begin(), grid.value.end(), 0.0);
     std::mt19937_64 random(std::random_device{}());
     do {
-        ASSERT_NO_FATAL_FAILURE(for_one_image(grid, random, check));
+        ASSERT_NO_FATAL_FAILURE(for_one_image(grid, random, check_interpolants));
     } while (std::next_permutation(grid.value.begin(), grid.value.end()));
 }
 

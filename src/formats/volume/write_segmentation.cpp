@@ -164,7 +164,8 @@ std::vector<std::string> warnings_of(const std::string& path, const Geometry& ge
         return {"the space of the volume is " + printable(geometry.space) +
                 ", which NIfTI cannot say: programs will take the coordinates as RAS"};
     const bool is_tiff = ends_with_ignoring_case(path, ".tif") || ends_with_ignoring_case(path, ".tiff");
-    if (is_tiff && (geometry.origin != Vec3{} || geometry.direction != Geometry{}.direction))
+    const Geometry plain;
+    if (is_tiff && (geometry.origin != plain.origin || geometry.direction != plain.direction))
         return {"TIFF keeps neither the origin nor the directions of the axes; .nrrd and .nii keep them"};
     return {};
 }

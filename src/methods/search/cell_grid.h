@@ -3,22 +3,18 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstdint>
 #include <limits>
 #include <span>
 #include <string>
 #include <vector>
 
+#include "field/require_isovalue.h"
 #include "isoatlas/cell_search.h"
 #include "isoatlas/error.h"
 
 namespace isoatlas {
 
-inline void require_isovalue(double tau) {
-    if (!std::isfinite(tau))
-        throw Error(ErrorKind::usage, {.what = "the isovalue is not a finite number", .next = "give a finite isovalue"});
-}
 /// As many cells as ids can tell apart.
 inline void require_countable(std::int64_t cells, const std::string& path) {
     if (cells < std::numeric_limits<CellId::Number>::max()) return;

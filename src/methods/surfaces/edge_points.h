@@ -1,19 +1,13 @@
 // EdgePoints: the points of a surface, one for each edge between a High and a Low sample that it crosses.
 #pragma once
 
-#include <cmath>
 #include <unordered_map>
 
+#include "field/require_isovalue.h"
 #include "isoatlas/error.h"
 #include "isoatlas/surface.h"
 
 namespace isoatlas {
-
-/// Throws Error{usage}: an isovalue that is none.
-inline void require_isovalue(double tau) {
-    if (!std::isfinite(tau))
-        throw Error(ErrorKind::usage, {.what = "the isovalue is not a finite number", .next = "give a finite isovalue"});
-}
 
 /// Where tau lies between two samples, linearly: from is High, to is Low, and the point is at `from` where they are equal.
 [[nodiscard]] inline double part_of_edge(double from, double to, double tau) { return (from - tau) / (from - to); }

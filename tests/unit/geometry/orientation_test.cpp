@@ -36,7 +36,7 @@ int rational_orientation(const Vec2& a, const Vec2& b, const Vec2& c) {
 }
 
 /// How many of each answer; a test without zeros would not have looked at what is hard.
-struct Seen {
+struct SeenSigns {
     std::array<int, 3> answers{};
     void check(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
         const int sign = rational_orientation(a, b, c, d);
@@ -65,7 +65,7 @@ TEST(Orientation, IsExactOnSmallIntegers) {
     std::mt19937 random(1);
     std::uniform_int_distribution<int> coordinate(0, 3);
     const auto point = [&] { return Vec3{double(coordinate(random)), double(coordinate(random)), double(coordinate(random))}; };
-    Seen seen;
+    SeenSigns seen;
     for (int i = 0; i < 20000; ++i) seen.check(point(), point(), point(), point());
     seen.expect_all();
 }
@@ -75,7 +75,7 @@ TEST(Orientation, IsExactBesideAPlane) {
     std::uniform_real_distribution<double> coordinate(-100, 100);
     std::uniform_int_distribution<int> step(-1, 1), eighths(0, 8);
     const auto point = [&] { return Vec3{coordinate(random), coordinate(random), coordinate(random)}; };
-    Seen seen;
+    SeenSigns seen;
     for (int i = 0; i < 20000; ++i) {
         const Vec3 a = point(), b = point(), c = point();
         const double s = eighths(random) / 8.0, t = eighths(random) / 8.0;
@@ -92,7 +92,7 @@ TEST(Orientation, IsExactBesideAPlane) {
 TEST(Orientation, IsExactFarFromOneUnit) {
     std::mt19937 random(3);
     std::uniform_int_distribution<int> coordinate(-2, 2), exponent(-1074, 1000);
-    Seen seen;
+    SeenSigns seen;
     for (int i = 0; i < 3000; ++i) {
         const Vec3 unit{std::ldexp(1.0, exponent(random)), std::ldexp(1.0, exponent(random)), std::ldexp(1.0, exponent(random))};
         const auto point = [&] {
@@ -108,7 +108,7 @@ TEST(Orientation, IsExactOfMixedMagnitudes) {
     std::mt19937 random(4);
     std::uniform_real_distribution<double> exponent(-200, 200);
     std::uniform_int_distribution<int> sign(-1, 1);
-    Seen seen;
+    SeenSigns seen;
     for (int i = 0; i < 3000; ++i) {
         const auto number = [&] { return sign(random) * std::exp2(exponent(random)); };
         const auto point = [&] { return Vec3{number(), number(), number()}; };

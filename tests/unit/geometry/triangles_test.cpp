@@ -24,7 +24,7 @@ std::array<Corners, 2> pair_of_triangles(int shared, std::mt19937& random) {
     return pair;
 }
 
-struct Seen {
+struct SeenPairs {
     std::array<int, 3> crossing{}, apart{};
 
     void check(const std::vector<Vec3>& points, int shared, std::mt19937& random) {
@@ -53,7 +53,7 @@ std::vector<Vec3> six_points(const auto& point) {
 TEST(Triangles, CrossAsCgalSaysOnASmallGrid) {
     std::mt19937 random(1);
     std::uniform_int_distribution<int> coordinate(0, 3), flat(0, 3);
-    Seen seen;
+    SeenPairs seen;
     for (int i = 0; i < 60000; ++i) {
         const int plane = flat(random);
         const auto point = [&] {
@@ -69,7 +69,7 @@ TEST(Triangles, CrossAsCgalSaysForAnyDoubles) {
     std::mt19937 random(2);
     std::uniform_real_distribution<double> coordinate(-1, 1);
     std::uniform_int_distribution<int> flat(0, 2);
-    Seen seen;
+    SeenPairs seen;
     for (int i = 0; i < 60000; ++i) {
         const double height = flat(random) == 0 ? 1e-9 : 1;  // with two corners shared only triangles of one plane fold
         const double tilt = coordinate(random);
@@ -85,7 +85,7 @@ TEST(Triangles, CrossAsCgalSaysForAnyDoubles) {
 TEST(Triangles, CrossAsCgalSaysBesideAPlane) {
     std::mt19937 random(3);
     std::uniform_int_distribution<int> coordinate(0, 6), step(-1, 1), plane(0, 1);
-    Seen seen;
+    SeenPairs seen;
     for (int i = 0; i < 60000; ++i) {
         const bool in_plane = plane(random) == 0;
         const auto point = [&] {

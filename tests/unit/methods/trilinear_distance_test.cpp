@@ -28,11 +28,11 @@ isoatlas::Volume volume_of(Index size, Value value) {
     return isoatlas::make_volume<double>({3, {size, size, size}}, values);
 }
 /// Minus the distance from the middle.
-isoatlas::Volume ball(Index size) {
+isoatlas::Volume ball_of(Index size) {
     const double middle = static_cast<double>(size - 1) / 2;
     return volume_of(size, [=](double x, double y, double z) { return -std::hypot(x - middle, y - middle, z - middle); });
 }
-Extraction extraction_by(SurfaceMethod method, const isoatlas::Volume& volume, double tau, int divisions = 2) {
+Extraction extraction(SurfaceMethod method, const isoatlas::Volume& volume, double tau, int divisions = 2) {
     return isoatlas::make_extractor(method, volume, {.divisions = divisions})->extract(tau);
 }
 
@@ -40,7 +40,7 @@ TEST(TrilinearDistance, OfAPlaneIsNothing) {
     const isoatlas::Volume volume = volume_of(9, [](double x, double y, double z) { return x + 0.7 * y - 0.3 * z; });
     for (const isoatlas::SurfaceMethodInfo& info : isoatlas::surface_methods()) {
         if (isoatlas::makes_points(info.method) || info.method == SurfaceMethod::connected_contours) continue;
-        const Extraction plane = extraction_by(info.method, volume, 4.123);
+        const Extraction plane = extraction(info.method, volume, 4.123);
         EXPECT_LE(isoatlas::distance_to_trilinear(plane, volume, 4.123, {.error = 1e-5}).max, 1e-5) << info.name;
         EXPECT_LE(isoatlas::distance_from_trilinear(plane, volume, 4.123).max, 1e-9) << info.name;
     }
@@ -48,9 +48,9 @@ TEST(TrilinearDistance, OfAPlaneIsNothing) {
 
 /// Level sets of a ball are a given distance apart. Those of the interpolant are almost spheres.
 TEST(TrilinearDistance, OfSpheresIsTheDifferenceOfTheirRadii) {
-    const isoatlas::Volume volume = ball(16);
+    const isoatlas::Volume volume = ball_of(16);
     for (const double radius : {5.1, 5.4}) {
-        const Extraction sphere = extraction_by(SurfaceMethod::trilinear, volume, -radius);
+        const Extraction sphere = extraction(SurfaceMethod::trilinear, volume, -radius);
         for (const double other : {5.1}) {
             const double apart = std::abs(radius - other);
             const SurfaceDistance there = isoatlas::distance_to_trilinear(sphere, volume, -other);
@@ -68,8 +68,8 @@ TEST(TrilinearDistance, OfSpheresIsTheDifferenceOfTheirRadii) {
 
 /// What is missing shows from the level set alone.
 TEST(TrilinearDistance, OfHalfASphere) {
-    const isoatlas::Volume volume = ball(24);
-    Extraction half = extraction_by(SurfaceMethod::trilinear, volume, -9);
+    const isoatlas::Volume volume = ball_of(24);
+    Extraction half = extraction(SurfaceMethod::trilinear, volume, -9);
     isoatlas::Array<std::array<std::int64_t, 3>> kept;
     for (const auto& t : half.surface.triangles) {
         if (half.surface.points[t[0]][2] < 11.5) kept.push_back(t);
@@ -82,9 +82,8 @@ TEST(TrilinearDistance, OfHalfASphere) {
 }
 
 TEST(TrilinearDistance, OfNothingIsNothing) {
-    const isoatlas::Volume volume = ball(8);
-    const Extraction none = extraction_by(SurfaceMethod::trilinear, volume, 7),
-                     sphere = extraction_by(SurfaceMethod::trilinear, volume, -2.5);
+    const isoatlas::Volume volume = ball_of(8);
+    const Extraction none = extraction(SurfaceMethod::trilinear, volume, 7), sphere = extraction(SurfaceMethod::trilinear, volume, -2.5);
     EXPECT_EQ(isoatlas::distance_to_trilinear(none, volume, 7).samples, 0);
     EXPECT_EQ(isoatlas::distance_from_trilinear(none, volume, 7).samples, 0);
     EXPECT_EQ(isoatlas::distance_to_trilinear(sphere, volume, 7).mean, 8);  // no level set at all
@@ -95,9 +94,9 @@ TEST(TrilinearDistance, OfNothingIsNothing) {
 
 /// Half the diagonal of a small cube, but for the error.
 TEST(TrilinearDistance, OfDividingCubesIsSmall) {
-    const isoatlas::Volume volume = ball(12);
+    const isoatlas::Volume volume = ball_of(12);
     for (const int divisions : {1, 2, 4}) {
-        const Extraction cloud = extraction_by(SurfaceMethod::dividing_cubes, volume, -3.3, divisions);
+        const Extraction cloud = extraction(SurfaceMethod::dividing_cubes, volume, -3.3, divisions);
         const SurfaceDistance there = isoatlas::distance_to_trilinear(cloud, volume, -3.3);
         EXPECT_LE(there.max, std::sqrt(3) / 2 / divisions * 1.011);
         EXPECT_EQ(there.samples, std::ssize(cloud.points.points));
@@ -107,12 +106,12 @@ TEST(TrilinearDistance, OfDividingCubesIsSmall) {
 
 /// Voxels, whatever the spacing and the axes.
 TEST(TrilinearDistance, DoesNotDependOnTheGeometry) {
-    isoatlas::Volume volume = ball(12);
-    const SurfaceDistance plain = isoatlas::distance_to_trilinear(extraction_by(SurfaceMethod::marching_cubes, volume, -4.1), volume, -4.1);
+    isoatlas::Volume volume = ball_of(12);
+    const SurfaceDistance plain = isoatlas::distance_to_trilinear(extraction(SurfaceMethod::marching_cubes, volume, -4.1), volume, -4.1);
     volume.info.geometry.spacing = {0.5, 2, 3}, volume.info.geometry.origin = {7, -5, 100};
     volume.info.geometry.direction = {{{0.8, 0.6, 0}, {-0.6, 0.8, 0}, {0, 0, -1}}};
     volume.info.geometry.coordinates[2] = {0, 1, 2, 4, 8, 9, 10, 12, 13, 14, 15, 20};
-    const Extraction moved = extraction_by(SurfaceMethod::marching_cubes, volume, -4.1);
+    const Extraction moved = extraction(SurfaceMethod::marching_cubes, volume, -4.1);
     for (const int threads : {1, 2, 3}) {
         const SurfaceDistance there = isoatlas::distance_to_trilinear(moved, volume, -4.1, {}, {.threads = threads});
         EXPECT_NEAR(there.mean, plain.mean, 1e-6);

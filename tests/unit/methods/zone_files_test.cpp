@@ -35,7 +35,7 @@ using isoatlas::ZoneFileRow;
 using isoatlas::ZoneFileSearch;
 using isoatlas::ZoneLayout;
 
-std::vector<CellId> expected(const Volume& volume, double tau) {
+std::vector<CellId> active_by_brute_force(const Volume& volume, double tau) {
     CellSearchCost cost;
     return isoatlas::make_cell_search(isoatlas::SearchMethod::brute_force, volume)->active(tau, cost);
 }
@@ -91,7 +91,7 @@ RC_GTEST_FIXTURE_PROP(ZoneFiles, GiveTheActiveCells, ()) {
     ZoneFileSearch file(path_);
     for (const double tau : interesting_values(elements_of(filed.grid, isoatlas::Interpolant::faces))) {
         CellSearchCost cost;
-        RC_ASSERT(file.active(tau, cost) == expected(filed.volume, tau));
+        RC_ASSERT(file.active(tau, cost) == active_by_brute_force(filed.volume, tau));
         const ZoneFileReads& reads = file.reads();
         RC_ASSERT(cost.active <= reads.entries_active);
         RC_ASSERT(reads.entries_active <= reads.cells_visited);
@@ -247,7 +247,7 @@ TEST_F(ZoneFiles, OfOneHillAreOneTree) {
     EXPECT_EQ(file.components(), 1);
     EXPECT_EQ(file.entries(), 11 * 11 * 11);
     CellSearchCost cost;
-    EXPECT_EQ(file.active(-30.5, cost), expected(volume, -30.5));
+    EXPECT_EQ(file.active(-30.5, cost), active_by_brute_force(volume, -30.5));
     EXPECT_GT(cost.nodes, 1);
     EXPECT_LT(cost.blocks, 2 * file.entries() / (504 / 44));
     EXPECT_LT(cost.bytes_read, file.file_bytes() / 2);
@@ -284,7 +284,7 @@ TEST_F(ZoneFileBytes, AreRefusedWhenDamaged) {
         for (const double tau : {0.25, 0.5, 0.75}) {
             try {
                 CellSearchCost cost;
-                if (ZoneFileSearch(path_).active(tau, cost) != expected(volume, tau)) return false;
+                if (ZoneFileSearch(path_).active(tau, cost) != active_by_brute_force(volume, tau)) return false;
             } catch (const isoatlas::Error& error) {
                 if (error.kind() != isoatlas::ErrorKind::input) return false;
             }

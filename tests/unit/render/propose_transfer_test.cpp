@@ -10,7 +10,7 @@
 namespace isoatlas {
 namespace {
 
-constexpr std::array<double, 2> kRange{0, 1000};
+constexpr std::array<double, 2> kSampleRange{0, 1000};
 constexpr double kSkin = 100;  // a tenth of the range
 
 VolumeInfo info_of(std::int64_t voxels) {
@@ -53,7 +53,7 @@ std::vector<std::vector<OpacityTent>> by_isovalue(const std::vector<OpacityTent>
 
 RC_GTEST_PROP(ProposedTransfer, SkinsAscendAndTheLastOneIsSolid, ()) {
     const ObjectTable table = any_table();
-    const auto groups = by_isovalue(propose_transfer(table, info_of(1000), kRange));
+    const auto groups = by_isovalue(propose_transfer(table, info_of(1000), kSampleRange));
     RC_ASSERT(groups.empty() == table.entries.empty());
     std::set<std::array<double, 3>> colours;
     for (std::size_t i = 0; i < groups.size(); ++i) {
@@ -63,7 +63,7 @@ RC_GTEST_PROP(ProposedTransfer, SkinsAscendAndTheLastOneIsSolid, ()) {
         RC_ASSERT(colours.insert({skin.colour.red, skin.colour.green, skin.colour.blue}).second);
         RC_ASSERT(std::ranges::count(table.entries, skin.tau, &ObjectEntry::best_tau) > 0);
         if (i + 1 == groups.size()) {
-            RC_ASSERT(skin.high > kRange[1]);
+            RC_ASSERT(skin.high > kSampleRange[1]);
         } else {
             RC_ASSERT(skin.high <= groups[i + 1][0].tau && skin.density < groups[i + 1][0].density);
         }
@@ -72,12 +72,12 @@ RC_GTEST_PROP(ProposedTransfer, SkinsAscendAndTheLastOneIsSolid, ()) {
 
 RC_GTEST_PROP(ProposedTransfer, BodiesReachToWhatComesNext, ()) {
     const ObjectTable table = any_table();
-    for (const auto& group : by_isovalue(propose_transfer(table, info_of(1000), kRange))) {
+    for (const auto& group : by_isovalue(propose_transfer(table, info_of(1000), kSampleRange))) {
         RC_ASSERT(group.size() <= 2);
         if (group.size() == 1) continue;
         const OpacityTent &skin = group[0], &body = group[1];
         RC_ASSERT(body.low == skin.low && body.high > skin.high && body.colour == skin.colour && body.density <= skin.density);
-        double next = kRange[1];
+        double next = kSampleRange[1];
         for (const ObjectEntry& other : table.entries) {
             if (other.best_tau > skin.tau) next = std::min(next, other.best_tau);
         }
@@ -92,23 +92,23 @@ TEST(ProposedTransfer, BackgroundOnlyIfThereIsNothingElse) {
     ObjectTable table;
     table.entries = {entry_at(300, 900, 950)};
     table.entries[0].outline = true;
-    EXPECT_EQ(propose_transfer(table, info_of(1000), kRange).size(), 1U);
+    EXPECT_EQ(propose_transfer(table, info_of(1000), kSampleRange).size(), 1U);
     EXPECT_TRUE(is_background(table, 0, info_of(1000).extent));
     table.entries.push_back(entry_at(600, 900, 200));
-    const std::vector<OpacityTent> tents = propose_transfer(table, info_of(1000), kRange);
+    const std::vector<OpacityTent> tents = propose_transfer(table, info_of(1000), kSampleRange);
     ASSERT_EQ(tents.size(), 1U);
     EXPECT_EQ(tents[0].tau, 600);
     // An outline of less shows something; what fills the volume and is no outline does too.
     table.entries[0].voxels = 600;
-    EXPECT_EQ(propose_transfer(table, info_of(1000), kRange)[0].tau, 300);
+    EXPECT_EQ(propose_transfer(table, info_of(1000), kSampleRange)[0].tau, 300);
     table.entries[0].voxels = 950, table.entries[0].outline = false;
-    EXPECT_EQ(propose_transfer(table, info_of(1000), kRange)[0].tau, 300);
+    EXPECT_EQ(propose_transfer(table, info_of(1000), kSampleRange)[0].tau, 300);
 }
 
 TEST(ProposedTransfer, ARoomBetweenTwoIsovaluesHasThinMatter) {
     ObjectTable table;
     table.entries = {entry_at(200, 900, 8000), entry_at(700, 900, 100)};
-    const std::vector<OpacityTent> tents = propose_transfer(table, info_of(100000), kRange);
+    const std::vector<OpacityTent> tents = propose_transfer(table, info_of(100000), kSampleRange);
     ASSERT_EQ(tents.size(), 3U);
     EXPECT_EQ(tents[1].high, 700);
     EXPECT_DOUBLE_EQ(tents[1].density * 20, 0.5);  // across a cube of 8000

@@ -17,7 +17,7 @@ SceneObject object(Surface surface, double opacity = 1, Colour colour = {1, 0.5,
     return {.surface = std::move(surface), .colour = colour, .opacity = opacity, .name = "thing"};
 }
 
-RenderOptions flat(std::int64_t size, int samples = 16) {
+RenderOptions flat_shaded(std::int64_t size, int samples = 16) {
     return {.width = size, .height = size, .background = Background::transparent, .samples = samples, .shading = false};
 }
 
@@ -54,7 +54,7 @@ Extent2 silhouette(const Image& image) {
 TEST(Render, SilhouetteOfABallIsWhereGeometrySays) {
     const Vec3 centre{1000, -20, 3};
     const Scene scene{.objects = {object(ball(centre, 7, 1))}};
-    const RenderOptions options = flat(200);
+    const RenderOptions options = flat_shaded(200);
     Camera camera{.target = {1001, -20, 4}, .view = {.toward = {0, -1, 0}, .up = {0, 0, 1}}, .height = 25};
     const Extent2 seen = silhouette(render_scene(scene, camera, options));
     const double radius = 7 / (25.0 / 200);
@@ -89,7 +89,8 @@ TEST(Render, PointsLookLikeTheirSurface) {
         }
     }
     EXPECT_LT(difference / covered, 8);  // of 4 x 255: neighbouring discs meet at angles
-    EXPECT_NEAR(silhouette(render_scene(discs, camera, flat(100))).area, silhouette(render_scene(triangles, camera, flat(100))).area, 40);
+    EXPECT_NEAR(silhouette(render_scene(discs, camera, flat_shaded(100))).area,
+                silhouette(render_scene(triangles, camera, flat_shaded(100))).area, 40);
 }
 
 TEST(Render, PointsAreNotClosedWhereTheyAreCut) {
@@ -105,7 +106,7 @@ TEST(Render, PointsAreNotClosedWhereTheyAreCut) {
 TEST(Render, PerspectiveSilhouetteIsThatOfTheCone) {
     const Scene scene{.objects = {object(ball({0, 0, 0}, 1, 1))}};
     const Camera camera{.projection = Projection::perspective, .target = {0, 0, 0}, .view = {}, .height = 4, .distance = 3};
-    const Extent2 seen = silhouette(render_scene(scene, camera, flat(200)));
+    const Extent2 seen = silhouette(render_scene(scene, camera, flat_shaded(200)));
     const double tangent = 1 / std::sqrt(3.0 * 3 - 1);  // half the angle under which the ball is seen
     EXPECT_NEAR(std::sqrt(seen.area / std::numbers::pi), 3 * tangent * 50, 0.5);
 }
@@ -113,7 +114,7 @@ TEST(Render, PerspectiveSilhouetteIsThatOfTheCone) {
 TEST(Render, FittedCamerasShowEverything) {
     const Scene scene{.objects = {object(box({0, 0, 0}, {40, 3, 9}, 1)), object(ball({50, 60, 70}, 5, 2))}};
     for (const Projection projection : {Projection::orthographic, Projection::perspective}) {
-        RenderOptions options = flat(120, 1);
+        RenderOptions options = flat_shaded(120, 1);
         options.width = 160, options.projection = projection;
         const Camera camera = fit_camera(scene, {.toward = {0.6, -0.64, 0.48}, .up = {0, 0, 1}}, options);
         for (const SceneObject& o : scene.objects) {
@@ -130,7 +131,7 @@ TEST(Render, NestedShellsLetLightThroughAsTheFormulaSays) {
     const Colour red{1, 0, 0}, blue{0, 0, 1};
     const Scene scene{.objects = {object(ball({0, 0, 0}, 10, 1), outer, red), object(ball({0, 0, 0}, 5, 2), inner, blue)}};
     const Camera camera{.target = {0, 0, 0}, .view = {}, .height = 30};
-    const Image image = render_scene(scene, camera, flat(31, 1));
+    const Image image = render_scene(scene, camera, flat_shaded(31, 1));
     const double through = (1 - outer) * (1 - outer) * (1 - inner) * (1 - inner);
     EXPECT_NEAR(alpha(image, 15, 15), 1 - through, 1.0 / 255);
     // Front to back: red, blue, blue, red.
@@ -147,21 +148,21 @@ TEST(Render, CutFacesShowWhatIsInside) {
     Scene scene{.objects = {object(ball({0, 0, 0}, 10, 1), 1, red), object(ball({0, 0, 0}, 5, 2), 1, blue)}};
     scene.removed = {{.normal = {0, -1, 0}, .offset = 0}};  // the half towards the eye
     const Camera camera{.target = {0, 0, 0}, .view = {}, .height = 30};
-    const Image image = render_scene(scene, camera, flat(31, 1));
+    const Image image = render_scene(scene, camera, flat_shaded(31, 1));
     EXPECT_EQ(image.at(15, 15)[2], 255) << "the inner ball's face";
     EXPECT_EQ(image.at(15, 15)[0], 0);
     EXPECT_EQ(image.at(8, 15)[0], 255) << "the outer ball's face";
     EXPECT_EQ(image.at(8, 15)[2], 0);
     EXPECT_EQ(image.at(2, 15)[3], 0);
     scene.removed.push_back({.normal = {1, 0, 0}, .offset = 0});  // now a quarter only
-    EXPECT_EQ(render_scene(scene, camera, flat(31, 1)).at(13, 15)[0], 255) << "the outer ball is whole here";
+    EXPECT_EQ(render_scene(scene, camera, flat_shaded(31, 1)).at(13, 15)[0], 255) << "the outer ball is whole here";
 }
 
 TEST(Render, WhereObjectsTouchTheHigherIsovalueIsSeen) {
     const Colour red{1, 0, 0}, blue{0, 0, 1};
     const Scene scene{.objects = {object(box({0, 0, 0}, {9, 9, 9}, 1), 1, red), object(box({3, 0, 3}, {6, 5, 6}, 2), 1, blue)}};
     const Camera camera{.target = {4.5, 0, 4.5}, .view = {}, .height = 10};
-    const Image image = render_scene(scene, camera, flat(50, 4));
+    const Image image = render_scene(scene, camera, flat_shaded(50, 4));
     for (std::int64_t y = 20; y < 30; ++y) {
         for (std::int64_t x = 20; x < 30; ++x) ASSERT_EQ(image.at(x, y)[2], 255);
     }
@@ -222,7 +223,7 @@ TEST(Render, ScaleBarsAreRoundAndTrue) {
 TEST(Render, TheDrawnScaleBarIsAsLongAsTheThingBesideIt) {
     // A box of the bar's length: its silhouette is as wide as the bar between its ticks.
     const double height = 70;
-    RenderOptions options = flat(400);
+    RenderOptions options = flat_shaded(400);
     const ScaleBar bar = scale_bar(height / 400, 400, "mm");
     Scene scene{.objects = {object(box({0, 0, 10}, {bar.length, 1, 12}, 1))}};
     const Camera camera{.target = {bar.length / 2, 0, 0}, .view = {.toward = {0, -1, 0}, .up = {0, 0, 1}}, .height = height};
