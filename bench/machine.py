@@ -34,7 +34,7 @@ def vectors():
     return f"{widest()}, ISOATLAS_SIMD={asked}" if asked else widest()
 
 
-HEAD = re.compile(r"^(?P<processor>.*), (?P<widest>AVX-512|AVX2|no AVX2)(, ISOATLAS_SIMD=(?P<asked>\w+))?, \d+ processors, [\d-]+, "
+HEAD = re.compile(r"^(?P<processor>.*), (?P<widest>AVX-512|AVX2|no AVX2)(, ISOATLAS_SIMD=(?P<asked>\w+))?, (?P<count>\d+) processors, [\d-]+, "
                   r"commit [0-9a-f]{8,40}\.$", re.M)
 
 
@@ -47,7 +47,9 @@ def kind(head):
 
 
 def processor(head):
-    return HEAD.match(head)["processor"]
+    """(its name, how many of them)"""
+    found = HEAD.match(head)
+    return found["processor"], int(found["count"])
 
 
 def machine():

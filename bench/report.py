@@ -207,20 +207,20 @@ ORDER = ["no AVX2", "AVX2", "AVX-512"]
 
 
 def parts_of(text):
-    """{(vectors, processor): head and table}: what is between the marks. What has no head is old: dropped."""
+    """{(vectors, processor, how many): head and table}: what is between the marks. What has no head is old: dropped."""
     heads = list(HEAD.finditer(text))
     ends = [head.start() for head in heads[1:]] + [len(text)]
-    return {(kind(head[0]), processor(head[0])): text[head.start():end].strip() for head, end in zip(heads, ends)}
+    return {(kind(head[0]), *processor(head[0])): text[head.start():end].strip() for head, end in zip(heads, ends)}
 
 
 def replace(page, mark, text):
-    """The table between these marks, of the same processor and vectors, or a new one; all of them by one that names none."""
+    """The table between these marks, of the same processor, as many of them and vectors, or a new one; all of them by one that names none."""
     pattern = re.compile(rf"(<!-- {mark}:begin -->\n)(.*?)(<!-- {mark}:end -->)", re.S)
     found = pattern.search(page)
     if not found:
         sys.exit(f"report: the page has no marks for '{mark}'")
     parts = parts_of(found[2]) | parts_of(text)
-    joined = "\n\n".join(parts[name] for name in sorted(parts, key=lambda name: (ORDER.index(name[0]), name[1]))) if parts_of(text) else text
+    joined = "\n\n".join(parts[name] for name in sorted(parts, key=lambda name: (ORDER.index(name[0]), *name[1:]))) if parts_of(text) else text
     return page[:found.start()] + found[1] + joined + "\n" + found[3] + page[found.end():]
 
 

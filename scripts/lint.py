@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""clang-tidy over src and apps, the warnings of clang included: scripts/lint.py [BUILD_FOLDER], which has the compile commands; without,
-build/lint is configured for it. Nothing needs to be built.
+"""clang-tidy over src and apps, the warnings of clang included: scripts/lint.py [--most] [BUILD_FOLDER], which has the compile commands;
+without, build/lint is configured for it. Nothing needs to be built. --most: without the checks of SLOW, which take a third of the time.
 
 Most of the time goes into the headers of the standard library, so the files of a folder are read together, as ISOATLAS_UNITY compiles
 them: no two of them have a name in both unnamed namespaces."""
@@ -22,6 +22,9 @@ TIDY = "clang-tidy-19"
 WARNINGS = ["-Wno-unknown-warning-option", "-Wno-ignored-optimization-argument", "-Wno-deprecated-declarations",
             "-Wno-enum-constexpr-conversion"]
 
+SLOW = ["performance-unnecessary-value-param"]  # reads the bodies of all functions of all headers
+MOST = "--most" in sys.argv
+
 
 def groups(commands):
     """(options, files) of files of a folder that are compiled alike, the largest group first."""
@@ -42,10 +45,11 @@ def groups(commands):
 
 def lint(options, files):
     """The findings in these files, as text."""
+    without = ",".join(f"-{name}" for name in ["bugprone-suspicious-include", *(SLOW if MOST else [])])
     with tempfile.NamedTemporaryFile("w", suffix=".cpp") as unit:
         unit.writelines(f'#include "{file}"\n' for file in files)
         unit.flush()
-        done = subprocess.run([TIDY, "--quiet", f"--config-file={ROOT / '.clang-tidy'}", "--checks=-bugprone-suspicious-include", unit.name,
+        done = subprocess.run([TIDY, "--quiet", f"--config-file={ROOT / '.clang-tidy'}", f"--checks={without}", unit.name,
                                "--", *options, *WARNINGS], capture_output=True, text=True)
     if done.returncode == 0:
         return ""
@@ -62,7 +66,8 @@ def configured():
 
 
 def main():
-    build = pathlib.Path(sys.argv[1]) if len(sys.argv) > 1 else configured()
+    folders = [word for word in sys.argv[1:] if word != "--most"]
+    build = pathlib.Path(folders[0]) if folders else configured()
     commands = json.loads((build / "compile_commands.json").read_text())
     units = list(groups(commands))
     with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:

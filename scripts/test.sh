@@ -13,7 +13,7 @@ step() {
 
 step "packages" scripts/bootstrap.sh test
 step "format" scripts/format.sh
-step "lint" scripts/lint.py
+step "lint" scripts/lint.py --most
 step "build" scripts/build.sh dev
 log=build/dev/Testing/Temporary/LastTest.log
 step "tests" sh -c 'ctest --preset dev || { status=$?; python3 -B scripts/failed_tests.py "$0"; exit $status; }' "$log"

@@ -224,9 +224,9 @@ describe.skipIf(!canServe)("slices", () => {
       for (let last: string | undefined = ""; last !== (last = await held()); ) await tab.waitForTimeout(1000);
     };
     await tab.locator(".objects h1").click();
-    await steps(20);
+    await steps(10);
     const before = await held();
-    await steps(100);
+    await steps(40);
     expect(await held()).toBe(before);
     expect(problems).toEqual([]);
     await tab.close();
