@@ -4,6 +4,7 @@
 
 #include "base/cancel.h"
 #include "base/phase.h"
+#include "catalogue/at_once.h"
 #include "isoatlas/cut.h"
 #include "isoatlas/filter.h"
 #include "isoatlas/objects.h"
@@ -47,8 +48,10 @@ std::optional<SmoothingComparison> compare_smoothing(const Atlas& atlas, double 
     const CutOptions cut_options{.interpolant = atlas.interpolant(), .tunnel_height = atlas.tunnel_height()};
     report(context, only_phase("smooth"), 0);
     const Volume volume = atlas.volume(silent);
-    comparison.as_is = shown_at(volume, cut_options, comparison.tau, options, silent);
-    comparison.smooth = shown_at(gaussian_filter(volume, sigma, silent), cut_options, comparison.tau, options, silent);
+    const auto show = [&](const Volume& shown, const Context& own) { return shown_at(shown, cut_options, comparison.tau, options, own); };
+    at_once(
+        context, [&](const Context& own) { comparison.as_is = show(volume, own); },
+        [&](const Context& own) { comparison.smooth = show(gaussian_filter(volume, sigma, own), own); });
     return comparison;
 }
 

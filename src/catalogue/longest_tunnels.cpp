@@ -4,7 +4,6 @@
 
 #include "atlas/access.h"
 #include "catalogue/at_once.h"
-#include "isoatlas/handles.h"
 
 namespace isoatlas {
 namespace {
@@ -42,19 +41,24 @@ void add_found(PageContents& contents, const Atlas& atlas, const FoundHandles& f
 
 }  // namespace
 
-void add_tunnels(PageContents& contents, const StoreSides& sides, const Context& context) {
-    if (sides.main.info().extent.rank != 3) return;
-    FoundHandles main{}, low{};
+PageTunnels find_tunnels(const PageContents& contents, const StoreSides& sides, const Context& context) {
+    PageTunnels found;
+    if (sides.main.info().extent.rank != 3) return found;
     at_once(
-        context, [&](const Context& own) { main = handles_of(sides.main, contents.noise, own); },
+        context, [&](const Context& own) { found.main = handles_of(sides.main, contents.noise, own); },
         [&](const Context& own) {
-            if (sides.has_both()) low = handles_of(*sides.low, contents.low->noise, own);
+            if (sides.has_both()) found.low = handles_of(*sides.low, contents.low->noise, own);
         });
-    add_found(contents, sides.main, main);
-    contents.exact_tunnels = main.exact;
-    if (!sides.has_both()) return;
-    add_found(contents, *sides.low, low);
-    contents.exact_tunnels = main.exact && low.exact;
+    return found;
+}
+
+void add_tunnels(PageContents& contents, const StoreSides& sides, const PageTunnels& found) {
+    if (!found.main) return;
+    add_found(contents, sides.main, *found.main);
+    contents.exact_tunnels = found.main->exact;
+    if (!found.low) return;
+    add_found(contents, *sides.low, *found.low);
+    contents.exact_tunnels = found.main->exact && found.low->exact;
 }
 
 }  // namespace isoatlas

@@ -236,6 +236,12 @@ Surface surface_of(const Atlas& atlas, bool is_cavity, const PageEntry& entry, c
 
 namespace {
 
+Surface surface_of(const PageContents& contents, const StoreSides& sides, std::size_t i, const Context& context) {
+    const PageEntry& entry = contents.entries[i];
+    const PageBranch& branch = contents.branches[entry.branch];
+    return surface_of(sides.of(branch.polarity), branch.is_cavity, entry, context);
+}
+
 PictureKey key_of(const PageEntry& entry) { return {entry.id, entry.tau, entry.number}; }
 
 /// Of every entry: what the draft has, if there is one.
@@ -281,28 +287,29 @@ void draw_first_pictures(PageContents& contents, const Atlas& atlas, const PageO
     }
 }
 
-std::vector<CoarseSurface> draw_pictures(PageContents& contents, const StoreSides& sides, const PageOptions& options,
-                                         const std::function<void(std::size_t)>& drawn, const Context& context) {
+std::vector<std::optional<CoarseSurface>> draw_pictures(PageContents& contents, const StoreSides& sides, const PageOptions& options,
+                                                        const std::function<void(std::size_t)>& drawn, const Context& context) {
     if (sides.main.info().extent.rank == 2) {
         draw_slices(contents, sides, options, context);
         return {};
     }
-    const auto surface = [&](std::size_t i, const Context& own) {
-        const PageEntry& entry = contents.entries[i];
-        const PageBranch& branch = contents.branches[entry.branch];
-        return surface_of(sides.of(branch.polarity), branch.is_cavity, entry, own);
-    };
     std::vector<std::optional<CoarseSurface>> coarse(contents.entries.size());
     std::vector<std::optional<CardPicture>> before = drawn_before(contents, options.draft);
     const auto draw = [&](std::size_t i, const Context& own) {
         PageEntry& entry = contents.entries[i];
         std::optional<CardPicture>& card = before[i];
-        if (!card) card = draw_card(surface(i, own), entry.colour, options, own);
+        if (!card) card = draw_card(surface_of(contents, sides, i, own), entry.colour, options, own);
         entry.picture = std::move(card->picture);
         coarse[i] = std::move(card->coarse);
     };
     draw_cards(coarse.size(), draw, drawn, context);
-    return coarse_cards(std::move(coarse), surface, context);
+    return coarse;
+}
+
+std::vector<CoarseSurface> coarse_surfaces(const PageContents& contents, const StoreSides& sides,
+                                           std::vector<std::optional<CoarseSurface>> made, const Context& context) {
+    const auto surface = [&](std::size_t i, const Context& own) { return surface_of(contents, sides, i, own); };
+    return coarse_cards(std::move(made), surface, context);
 }
 
 }  // namespace isoatlas

@@ -102,9 +102,15 @@ struct PageContents {
 /// Pictures of the first kFirstCards entries, all objects of high values, also kept in draft. Cost and errors as draw_pictures().
 void draw_first_pictures(PageContents& contents, const Atlas& atlas, const PageOptions& options, PageDraft::Data& draft,
                          const Context& context);
-/// A picture of every entry that options.draft does not have, in their order. Returns the coarse surfaces of the entries, for
-/// page_meshes(); none of a 2D volume. drawn: as of draw_cards(). Cost: a surface each, drawn options.frames times.
-[[nodiscard]] std::vector<CoarseSurface> draw_pictures(PageContents& contents, const StoreSides& sides, const PageOptions& options,
-                                                       const std::function<void(std::size_t)>& drawn, const Context& context);
+/// A picture of every entry that options.draft does not have, in their order. Returns what it has of coarse_surfaces(). drawn: as of
+/// draw_cards(). Cost: a surface each, drawn options.frames times.
+[[nodiscard]] std::vector<std::optional<CoarseSurface>> draw_pictures(PageContents& contents, const StoreSides& sides,
+                                                                      const PageOptions& options,
+                                                                      const std::function<void(std::size_t)>& drawn,
+                                                                      const Context& context);
+/// The surfaces of the entries for page_meshes(), in their order; none of a 2D volume. made: those that are there already. Cost and errors
+/// as coarse_cards().
+[[nodiscard]] std::vector<CoarseSurface> coarse_surfaces(const PageContents& contents, const StoreSides& sides,
+                                                         std::vector<std::optional<CoarseSurface>> made, const Context& context);
 
 }  // namespace isoatlas

@@ -2,10 +2,12 @@
 #include "isoatlas/page.h"
 
 #include <algorithm>
+#include <optional>
 #include <set>
 
 #include "atlas/access.h"
 #include "base/phase.h"
+#include "catalogue/at_once.h"
 #include "catalogue/compare_smoothing.h"
 #include "catalogue/joined_contents.h"
 #include "catalogue/longest_tunnels.h"
@@ -47,6 +49,25 @@ PageContents contents_of(const StoreSides& sides, const PageOptions& options, co
     contents.notes = options.notes;
     contents.smoothing = options.smoothing;
     return contents;
+}
+
+/// What a page has beside its pictures. At the same time: tunnels are paired by one thread for most of the time, and of a CT that takes as
+/// long as the pictures. Returns the coarse surfaces of the entries.
+std::vector<CoarseSurface> after_pictures(PageContents& contents, const StoreSides& sides, const PageOptions& options,
+                                          std::vector<std::optional<CoarseSurface>> made, const Context& context) {
+    report(context, only_phase("find the longest tunnels"), 0);
+    PageTunnels tunnels;
+    std::optional<SmoothingComparison> comparison;
+    std::vector<CoarseSurface> surfaces;
+    const auto reduce = [&](const Context& own) { surfaces = coarse_surfaces(contents, sides, std::move(made), own); };
+    const auto measure = [&](const Context& own) {
+        tunnels = find_tunnels(contents, sides, own);
+        if (contents.smoothing) comparison = compare_smoothing(sides.main, contents.smoothing->sigma, options, own);
+    };
+    at_once(context, measure, reduce);
+    add_tunnels(contents, sides, tunnels);
+    contents.comparison = std::move(comparison);
+    return surfaces;
 }
 
 std::string text_of_page(const StoreSides& sides, const PageContents& contents, const PageOptions& options) {
@@ -92,11 +113,9 @@ PageReport write_page(const std::string& path, const Atlas& atlas, const PageOpt
         options.partly_written(static_cast<std::int64_t>(pictures));
     };
     contents.is_complete = false;
-    const std::vector<CoarseSurface> surfaces = draw_pictures(contents, sides, options, drawn, context);
+    std::vector<std::optional<CoarseSurface>> coarse = draw_pictures(contents, sides, options, drawn, context);
     contents.is_complete = true;
-    report(context, only_phase("find the longest tunnels"), 0);  // after the pictures: of a CT it takes as long as they
-    add_tunnels(contents, sides, context);
-    if (contents.smoothing) contents.comparison = compare_smoothing(atlas, contents.smoothing->sigma, options, context);
+    const std::vector<CoarseSurface> surfaces = after_pictures(contents, sides, options, std::move(coarse), context);
     const std::vector<PageMesh> meshes = page_meshes(surfaces, bytes_for_meshes(text_of(), std::ssize(surfaces)), context);
     for (std::size_t i = 0; i < meshes.size(); ++i) contents.entries[i].mesh = meshes[i];
     PageReport made = report_of(contents);

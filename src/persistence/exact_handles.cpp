@@ -26,7 +26,7 @@
 namespace isoatlas {
 namespace {
 
-constexpr std::int64_t kBatch = 64;  // columns
+constexpr std::int64_t kBatch = 256;  // columns
 
 /// Events of the object of an event, all when it is none.
 template <class Id>
@@ -70,13 +70,13 @@ public:
 
     [[nodiscard]] std::vector<HandlePair> pairs() {
         const auto closing = static_cast<std::int64_t>(elements_.closing.size());
-        std::vector<Sum> sums(static_cast<std::size_t>(kBatch));
+        std::vector<Column> columns(static_cast<std::size_t>(kBatch));
         for (std::int64_t first = 0; first < closing; first += kBatch) {
             stop_if_cancelled(context_);
             report(context_, only_phase("tunnels"), static_cast<double>(first) / static_cast<double>(closing));
             const std::int64_t count = std::min(kBatch, closing - first);
-            for_each_block(context_.threads, count, [&](std::int64_t i) { sums[i] = reduced(single(elements_.closing[first + i])); });
-            for (std::int64_t i = 0; i < count; ++i) pair(reduced(std::move(sums[i])), elements_.closing[first + i]);
+            for_each_block(context_.threads, count, [&](std::int64_t i) { columns[i] = column(single(elements_.closing[first + i])); });
+            for (std::int64_t i = 0; i < count; ++i) pair(std::move(columns[i]), elements_.closing[first + i]);
         }
         add_open();
         return std::move(pairs_);
@@ -89,6 +89,12 @@ private:
     /// A sum of columns mod 2, followed up to its lowest row.
     struct Sum {
         Chain chain;  ///< above that row
+        std::optional<std::int64_t> row;
+    };
+
+    /// A sum that is not added to, by its edges that are there an odd number of times, ascending.
+    struct Column {
+        std::vector<Edge> edges;
         std::optional<std::int64_t> row;
     };
 
@@ -132,10 +138,17 @@ private:
         return edges;
     }
 
-    void pair(Sum one, ElementId element) {
-        ISOATLAS_CHECK(one.row.has_value());  // it closes a tunnel
+    [[nodiscard]] Column column(Sum one) const {
+        one = reduced(std::move(one));
+        return {edges_of(one.chain), one.row};
+    }
+
+    void pair(Column one, ElementId element) {
+        if (one.row && paired_.contains(*one.row))
+            one = column({Chain(std::greater<>{}, std::move(one.edges)), one.row});  // one of this batch
+        ISOATLAS_CHECK(one.row.has_value());                                         // it closes a tunnel
         pairs_.push_back({elements_.opening[*one.row], element});
-        paired_.emplace(*one.row, edges_of(one.chain));
+        paired_.emplace(*one.row, std::move(one.edges));
     }
 
     /// Tunnels that are still open when the object merges.

@@ -74,10 +74,12 @@ TEST(SharedData, OriginalsEqualTheConvertedFiles) {
         EXPECT_EQ(whole->info().extent, other->info().extent);
         EXPECT_EQ(whole->info().type, other->info().type);
     }
-    EXPECT_EQ(checksum(kSharedData + "tooth/original/tooth.nhdr", 1, 5), stats.at("tooth/tooth.nrrd").at("sha256_samples").get<std::string>());
+    EXPECT_EQ(checksum(kSharedData + "tooth/original/tooth.nhdr", 1, 5),
+              stats.at("tooth/tooth.nrrd").at("sha256_samples").get<std::string>());
     EXPECT_EQ(checksum(kSharedData + "lung_ct/original/3DCT_lung_baseline_small.mha", 1, 9),
               stats.at("lung_ct/lung_lo.nrrd").at("sha256_samples").get<std::string>());
-    EXPECT_EQ(checksum(kSharedData + "dens40/original/dens40.npy", 1, 9), stats.at("dens40/dens40.nrrd").at("sha256_samples").get<std::string>());
+    EXPECT_EQ(checksum(kSharedData + "dens40/original/dens40.npy", 1, 9),
+              stats.at("dens40/dens40.nrrd").at("sha256_samples").get<std::string>());
 }
 
 /// frogtissue.mhd claims a CompressedDataSize that is too small. The converted file was made by a reader that stops there and has zeros
