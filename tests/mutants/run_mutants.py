@@ -61,21 +61,46 @@ def users(src, name):
     return sorted(file for file in seen if file.endswith(".cpp") and (file.split("/")[0] in ROOMS or file in FILES))
 
 
-def compile_command(commands, src, overlay, unit, output):
-    entry = commands[str(src / unit)]
+def commands_of(build):
+    """{source: its entry of compile_commands.json}; of sources that are compiled together (ISOATLAS_UNITY): that of all of them."""
+    found = {}
+    for entry in json.loads((build / "compile_commands.json").read_text()):
+        found[entry["file"]] = entry
+        if "/Unity/" in entry["file"]:
+            found |= {source: entry for source in re.findall(r'#include "([^"]+)"', pathlib.Path(entry["file"]).read_text())}
+    return found
+
+
+def to_compile(commands, src, overlay, units):
+    """[(entry, source)]: what has these units, from the overlay where that has it; a source of several units is written anew."""
+    found = {}
+    for unit in units:
+        entry = commands[str(src / unit)]
+        if "/Unity/" not in entry["file"]:
+            found[unit] = (entry, overlay / unit if (overlay / unit).exists() else src / unit)
+        elif entry["file"] not in found:
+            text = pathlib.Path(entry["file"]).read_text()
+            for file in overlay.rglob("*.cpp"):
+                text = text.replace(f'"{src / file.relative_to(overlay)}"', f'"{file}"')
+            source = overlay.parent / pathlib.Path(entry["file"]).name
+            source.write_text(text)
+            found[entry["file"]] = (entry, source)
+    return list(found.values())
+
+
+def compile_command(entry, overlay, source, output):
     words = shlex.split(entry["command"])
     kept, skip = [], False
     for word in words[1:]:
         if skip or word in ("-o", "-MF", "-MT", "-MQ", "-c"):
             skip = not skip and word != "-c"
             continue
-        if word in ("-MD", "-MMD") or re.fullmatch(r"-O\w|-g\w*", word) or word == str(src / unit) or word.endswith((".cpp", ".o")):
+        if word in ("-MD", "-MMD") or re.fullmatch(r"-O\w|-g\w*", word) or word == entry["file"] or word.endswith((".cpp", ".cxx", ".o")):
             continue
         kept.append(word)
     compiler = words[0]
     if compiler.endswith("ccache"):
         kept.insert(0, kept.pop(0))
-    source = overlay / unit if (overlay / unit).exists() else src / unit
     return [compiler, *kept[:1], f"-I{overlay}", *kept[1:], "-O1", "-w", "-c", str(source), "-o", str(output)], entry["directory"]
 
 
@@ -96,9 +121,9 @@ def check(arguments, commands, mutant):
         target.parent.mkdir(parents=True)
         target.write_text(mutated((src / mutant["file"]).read_text(), mutant))
         objects = []
-        for unit in users(src, mutant["file"]):
-            objects.append(pathlib.Path(folder) / (unit.replace("/", "_") + ".o"))
-            command, directory = compile_command(commands, src, overlay, unit, objects[-1])
+        for entry, source in to_compile(commands, src, overlay, users(src, mutant["file"])):
+            objects.append(pathlib.Path(folder) / f"{len(objects)}.o")
+            command, directory = compile_command(entry, overlay, source, objects[-1])
             done = subprocess.run(command, cwd=directory, capture_output=True, text=True)
             if done.returncode != 0:
                 return name, "DOES NOT COMPILE", done.stderr[:2000]
@@ -123,7 +148,7 @@ def main():
     parser.add_argument("--only", help="names that contain this")
     arguments = parser.parse_args()
     arguments.link = link_command(arguments.build)
-    commands = {entry["file"]: entry for entry in json.loads((arguments.build / "compile_commands.json").read_text())}
+    commands = commands_of(arguments.build)
     mutants = [m for m in parse(arguments.source / "tests/mutants/mutants.txt") if not arguments.only or arguments.only in m["mutant"]]
     bad = 0
     with concurrent.futures.ThreadPoolExecutor(2) as pool:
