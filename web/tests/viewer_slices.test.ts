@@ -224,7 +224,7 @@ describe.skipIf(!canServe)("slices", () => {
       for (let last: string | undefined = ""; last !== (last = await held()); ) await tab.waitForTimeout(1000);
     };
     await tab.locator(".objects h1").click();
-    await steps(10);
+    await steps(20);
     const before = await held();
     await steps(40);
     expect(await held()).toBe(before);
