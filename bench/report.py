@@ -5,7 +5,7 @@
     report.py FOLDER [PAGE]   FOLDER holds what was measured: engine.json, extract.json, store.json, render.json, pages.json, remote.json,
                               methods.json, methods-surfaces.json and scale-SECTION.json, those that are there; PAGE: docs/performance.md
 
-A table replaces the one of the same processor and vectors (AVX2, AVX-512); those of others stay. What misses its goal is in bold.
+A table replaces the one of the same processor, as many of them and vectors (AVX2, AVX-512); those of others stay. What misses its goal is in bold.
 """
 import json
 import math
