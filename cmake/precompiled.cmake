@@ -4,7 +4,7 @@ option(ISOATLAS_PRECOMPILE "Precompile common headers" ON)
 # One translation unit a folder: a clean build takes less time, one after a change more. No two sources of a folder have a name in both
 # unnamed namespaces, which scripts/lint.py checks. Rooms with inner loops stay apart: g++ inlines less where a unit is large.
 option(ISOATLAS_UNITY "Compile the sources of a folder together" OFF)
-set(ISOATLAS_KERNEL_ROOMS base geometry field critical tree zones analysis levelset mesh level_of_detail codec bricks render)
+set(ISOATLAS_KERNEL_ROOMS base geometry field critical tree zones analysis levelset mesh octree_front level_of_detail codec bricks render)
 
 function(isoatlas_precompile target)
   if(ISOATLAS_PRECOMPILE)

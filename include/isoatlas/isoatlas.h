@@ -55,6 +55,7 @@
 #include "isoatlas/nested_labels.h"
 #include "isoatlas/object_names.h"
 #include "isoatlas/objects.h"
+#include "isoatlas/octree_front.h"
 #include "isoatlas/octree_mesh.h"
 #include "isoatlas/output.h"
 #include "isoatlas/output_file.h"

@@ -91,19 +91,21 @@ auto CellWriter<T>::state_again(std::int64_t p, std::int64_t y, std::int64_t z, 
 }
 
 template <class T>
+auto CellWriter<T>::size_of(const State& state) const -> Size {
+    if (!state.tunnel) return {triangles_[state.number].triangles, triangles_[state.number].articulation_points};
+    const TunnelCell cell = tunnel_cell(state.pattern, state.joined, *state.tunnel, style_);
+    return {cell.triangles, cell.points()};
+}
+
+template <class T>
 void CellWriter<T>::count_row(std::int64_t y, std::int64_t z, RowOffsets& place, std::vector<std::uint8_t>& found) const {
     const bool tunnels = has_tunnels(y, z);
     const auto count_rest = [&](std::int64_t p, int pattern) {
         const State state = state_of(p, y, z, pattern, tunnels);
         found.push_back(static_cast<std::uint8_t>(state.joined | (state.tunnel ? kHasTunnel : 0)));
-        if (state.tunnel) {
-            const TunnelCell cell = tunnel_cell(state.pattern, state.joined, *state.tunnel, style_);
-            place.triangle += cell.triangles;
-            place.articulation_points += cell.points();
-        } else {
-            place.triangle += triangles_[state.number].triangles;
-            place.articulation_points += triangles_[state.number].articulation_points;
-        }
+        const Size size = size_of(state);
+        place.triangle += size.triangles;
+        place.articulation_points += static_cast<std::uint32_t>(size.points);
     };
     count_plain_cells(cell_row(domain_.high, y, z), domain_.cells, plain_, place, count_rest);
 }

@@ -37,23 +37,29 @@ public:
     /// found: the number of the first cell of the row that is not plain; moved on, past the last one.
     void write_row(std::int64_t y, std::int64_t z, const Layout& layout, const std::uint8_t*& found, Surface& surface) const;
 
-private:
     /// A cell at tau.
     struct State {
         int pattern, joined, number;
         std::optional<OpenTunnel> tunnel;
     };
+    /// How much a cell adds to a surface, beside its hits.
+    struct Size {
+        std::int64_t triangles, points;
+    };
     /// Has row (y, z) cells that may have tunnels?
     [[nodiscard]] bool has_tunnels(std::int64_t y, std::int64_t z) const;
-    /// Cell p of row (y, z), which is not plain.
+    /// Cell p of row (y, z).
     [[nodiscard]] State state_of(std::int64_t p, std::int64_t y, std::int64_t z, int pattern, bool has_tunnels) const;
+    [[nodiscard]] Size size_of(const State& state) const;
+    /// Writes the triangles and points of a cell. point: of its hits, by edges, and room for 8 more; next_point, triangle: places, moved on.
+    void write_cell(const State& state, const Index3& voxel, std::int64_t* point, std::int64_t& next_point,
+                    std::array<std::int64_t, 3>*& triangle, Surface& surface) const;
+
+private:
     /// The state as a number: its joined faces, one bit each, and whether it has a tunnel.
     static constexpr std::uint8_t kHasTunnel = 1 << 6;
     /// The same from the number that count_row() has left: only a tunnel is computed once more.
     [[nodiscard]] State state_again(std::int64_t p, std::int64_t y, std::int64_t z, int pattern, std::uint8_t found) const;
-    /// Writes the triangles and points of a cell that is not plain. point: of its hits; next_point, triangle: places, moved on.
-    void write_cell(const State& state, const Index3& voxel, std::int64_t* point, std::int64_t& next_point,
-                    std::array<std::int64_t, 3>*& triangle, Surface& surface) const;
     /// Writes the points of a cell with a tunnel behind its hits in `point`; next: the first of their places.
     void write_points(const State& state, const TunnelCell& cell, const Index3& voxel, std::int64_t next, std::int64_t* point,
                       Surface& surface) const;

@@ -17,14 +17,6 @@
 namespace isoatlas {
 namespace {
 
-/// Is the orientation of triangles (segments) opposite to that in voxel coordinates? A 2D image is seen from +z where it can be.
-bool is_mirrored(const VolumeInfo& info) {
-    const Mat3& m = info.geometry.direction;
-    const double in_plane = m[0][0] * m[1][1] - m[0][1] * m[1][0];
-    if (info.extent.rank == 2 && std::abs(in_plane) > 1e-12) return in_plane < 0;
-    return handedness(info.geometry) < 0;
-}
-
 template <class Visit>
 void for_arrays(Surface& surface, Visit&& visit) {
     visit(surface.points), visit(surface.normals), visit(surface.triangles), visit(surface.segments), visit(surface.object),
@@ -180,6 +172,13 @@ private:
 };
 
 }  // namespace
+
+bool is_mirrored(const VolumeInfo& info) {
+    const Mat3& m = info.geometry.direction;
+    const double in_plane = m[0][0] * m[1][1] - m[0][1] * m[1][0];
+    if (info.extent.rank == 2 && std::abs(in_plane) > 1e-12) return in_plane < 0;
+    return handedness(info.geometry) < 0;
+}
 
 bool selects_components(const SurfaceOptions& options) {
     return !options.objects.empty() || !options.contours.empty() || options.shell != ShellChoice::all;

@@ -7,6 +7,9 @@
 
 namespace isoatlas {
 
+/// Is the orientation of triangles (segments) opposite to that in voxel coordinates? A 2D image is seen from +z where it can be.
+[[nodiscard]] bool is_mirrored(const VolumeInfo& info);
+
 /// Do these options select components?
 [[nodiscard]] bool selects_components(const SurfaceOptions& options);
 [[nodiscard]] inline bool needs_representatives(const SurfaceOptions& options) { return options.ids || selects_components(options); }

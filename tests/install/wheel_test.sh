@@ -2,7 +2,7 @@
 # Run by CTest: pip builds the wheel from a clean copy of the sources, installs it into a fresh virtual environment without network, and what
 # it holds is used from another folder.
 #   wheel_test.sh SOURCE BUILD WORK     BUILD: a finished build; its bundled pages are taken, so that no npm is needed
-# The C++ sources are compiled anew (with ccache where it is installed), without optimisation: other tests are about what they compute.
+# The modules of BUILD are taken. ISOATLAS_ALL_DATA=1: they are compiled anew (with ccache where it is installed), without optimisation.
 set -euo pipefail
 source=$1 build=$2 work=$3
 
@@ -24,9 +24,11 @@ step "a virtual environment"
 
 cd "$work"
 if command -v mold >/dev/null; then export LDFLAGS=-fuse-ld=mold; fi
+modules=ISOATLAS_PYTHON_BUILT=$build/python/isoatlas
+if [[ -n ${ISOATLAS_ALL_DATA:-} ]]; then modules=CMAKE_CXX_FLAGS_RELEASE=-O0; fi
 pip=("$python" -m pip --disable-pip-version-check --no-cache-dir)
 "${pip[@]}" wheel -v --no-build-isolation --no-index --no-deps -w "$work/wheels" --config-settings=ISOATLAS_WEB_DIST="$build/web/dist" \
-    --config-settings=CMAKE_CXX_FLAGS_RELEASE=-O0 \
+    --config-settings="$modules" \
     "$work/source" >said 2>&1 || { tail -n 40 said && echo "the wheel was not built" && exit 1; }
 step "the wheel, $(du -h "$work"/wheels/*.whl | cut -f1)"
 "${pip[@]}" install --no-index --no-deps "$work"/wheels/*.whl >said 2>&1 || { cat said && echo "the wheel was not installed" && exit 1; }

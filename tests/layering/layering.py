@@ -14,7 +14,7 @@ from pathlib import Path
 # library -> the libraries it needs, and its rooms (folders of src) in the order in which data flows through them
 LIBRARIES = {
     "core": ([], ["base", "geometry", "field", "critical", "tree", "zones", "analysis", "features", "persistence", "levelset", "mesh",
-                  "level_of_detail"]),
+                  "octree_front", "level_of_detail"]),
     "formats": (["core"], ["formats/common", "formats/zarr", "formats/volume", "formats/mesh", "formats/tree"]),
     "remote": (["formats"], ["remote"]),
     "store": (["formats"], ["codec", "store", "bricks", "census", "atlas", "levels"]),
@@ -37,6 +37,7 @@ PUBLIC = {
     "persistence": "handles persistence",
     "levelset": "cut nested_labels",
     "mesh": "labels print surface",
+    "octree_front": "octree_front",
     "level_of_detail": "cluster_hierarchy level_of_detail octree_mesh",
     "formats/common": "object_names output segmentation shell_word",
     "formats/volume": "dataset_path",

@@ -1,0 +1,49 @@
+// The surface of any isovalue by blocks of an octree, coarse where it may be, nothing prepared: for an isovalue that moves.
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <vector>
+
+#include "isoatlas/surface.h"
+
+namespace isoatlas {
+
+/// Where somebody looks from. Blocks are smaller where they are near.
+struct FrontEye {
+    Vec3 position;   ///< in voxels: the first sample of the volume is at 0 0 0
+    double slope = 0.001;  ///< how much a surface may deviate, for each voxel that it is away: the angle of a pixel, in radians
+};
+
+struct FrontOptions {
+    /// Blocks are at most 2^max_level cells wide, 0 .. 5; 0: the exact surface.
+    int max_level = 3;
+    /// How far the points of the exact surface on edges of the grid may be from the front, in voxels; infinity: blocks are as large as the
+    /// topology allows, which is fast: no distance is measured.
+    double deviation = std::numeric_limits<double>::infinity();
+    /// Instead of one deviation everywhere.
+    std::optional<FrontEye> eye{};
+    /// Regions of interest: the exact surface inside these samples.
+    std::vector<SampleBox> exact{};
+};
+
+struct FrontSurface {
+    Surface surface;
+    std::vector<std::int64_t> leaves;  ///< how many blocks of each level hold a part of it; of level 0: cells
+    double deviation = 0;             ///< as it was measured; infinity: it was not
+};
+
+/// The surface at tau with the same contours, genus and nesting as that of extract(), and fewer triangles: in a block of cells where it is
+/// one disk, and stays one on the block's faces and edges, it is a fan of triangles around a point of it. Points of the front are points
+/// of the exact surface, where edges of blocks meet it, but for some inside a block. Neighbours may be of any two levels: there are no
+/// cracks and no rules of balance. Closed, embedded, oriented as extract(); docs/theory/10-level-of-detail.md#octree-fronts has the proof.
+/// A block qualifies by the classes of its samples alone, words of bits at a time.
+/// how: of extract(); objects and contours are chosen, and points have ids, as there. Throws Error: usage (options out of range; tau not
+/// finite; Boundary::open), unsupported (a 2D image), otherwise as extract(). The same bytes for any number of threads. Cost: O(volume)
+/// scan to classify, some nanoseconds a cell near the surface, plus O(triangles of the front); with a deviation some 100 ns for each active
+/// cell and level. Memory: 8 bits a voxel.
+[[nodiscard]] FrontSurface extract_front(const Volume& volume, double tau, const FrontOptions& options = {}, const ExtractOptions& how = {},
+                                         const Context& context = {});
+
+}  // namespace isoatlas

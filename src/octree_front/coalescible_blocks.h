@@ -1,0 +1,76 @@
+// CoalescibleBlocks: the blocks of an octree of cells whose surface is one disk, as that of a cell with their corners alone.
+//
+//   position   of a vertex: its voxel + 1 along each axis, so that the padding begins at 0
+//   block      of level k: 2^k x 2^k x 2^k cells, the first of them at 2^k times the block; a block of level 0 is a cell
+//   children   of a block: the 8 of the level below in it. Together they have 27 vertices: its corners, the middles of its edges, the
+//              centres of its faces and its own
+//   regular    a middle whose two neighbours on the edge are not both of the other class; a centre of a face, of the block: the same of
+//              its four, six neighbours
+//   unambiguous the 8 corners of a block: no face is split, and the Highs as well as the Lows are connected along edges: one loop of hits
+//
+// A block is coalescible if its corners are unambiguous, its children are coalescible and the other 19 vertices are regular: words of bits
+// decide for 64 blocks at a time, without looking at a sample. Theorem: docs/theory/10-level-of-detail.md#octree-fronts.
+//
+// In the literature: adaptive octrees with a test of topology (Ju, Losasso, Schaefer, Warren, Dual contouring of Hermite data, 2002, 4.2),
+// which tests corners alone and only for dual surfaces.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "isoatlas/context.h"
+#include "levelset/high_bits.h"
+#include "octree_front/bit_grid.h"
+
+namespace isoatlas {
+
+class CoalescibleBlocks {
+public:
+    /// Blocks are at most 32 cells wide.
+    static constexpr int kMaxLevel = 5;
+
+    /// high: all words, outlives this. max_level: 1 .. kMaxLevel. Cost: some 10 operations a word of 64 vertices where classes are mixed.
+    /// Memory: 2.3 bits a voxel.
+    CoalescibleBlocks(const HighBits& high, int max_level, const Context& context);
+
+    [[nodiscard]] int max_level() const { return static_cast<int>(levels_.size()) - 1; }
+    /// How many blocks cover all cells.
+    [[nodiscard]] const Index3& blocks(int level) const { return levels_[static_cast<std::size_t>(level)].coalescible.size(); }
+    [[nodiscard]] bool is_high(const Index3& position) const {
+        if (position[0] >= high_.extent().size[0] + 2) return false;
+        return (high_.row(position[1] - 1, position[2] - 1)[position[0] / 64] >> position[0] % 64 & 1) != 0;
+    }
+    /// Bit i: the vertex i behind `position` along x is High; at least 63 of them.
+    [[nodiscard]] std::uint64_t vertex_bits(const Index3& position) const {
+        const std::int64_t w = position[0] / 64, bit = position[0] % 64;
+        const std::uint64_t here = vertices(0, w, position[1], position[2]) >> bit;
+        return bit == 0 ? here : here | vertices(0, w + 1, position[1], position[2]) << (64 - bit);
+    }
+    /// Also true of a block whose vertices are of one class.
+    [[nodiscard]] bool is_coalescible(int level, const Index3& block) const {
+        return levels_[static_cast<std::size_t>(level)].coalescible[block];
+    }
+    /// Bit c: corner c is High (field/cell.h).
+    [[nodiscard]] int pattern(int level, const Index3& block) const;
+
+private:
+    struct Level {
+        BitGrid coalescible;  ///< one bit a block
+        BitGrid vertices;     ///< High corners of its blocks; empty of level 0, where the bits of the samples are
+    };
+    [[nodiscard]] std::uint64_t vertices(int level, std::int64_t w, std::int64_t y, std::int64_t z) const;
+    void test_cells(std::int64_t y, std::int64_t z);
+    void keep_vertices(int level, std::int64_t z);
+    void test_blocks(int level, std::int64_t y, std::int64_t z);
+
+    const HighBits& high_;
+    std::vector<Level> levels_;
+};
+
+/// Bit i: the corners of cell i, bit i of the words of its 8 corners, are unambiguous.
+[[nodiscard]] std::uint64_t unambiguous(const std::array<std::uint64_t, 8>& corner);
+/// Bit i: the vertices of block i that are not corners, bit i of the words of all 27, x first, are regular.
+[[nodiscard]] std::uint64_t regular(const std::array<std::uint64_t, 27>& vertex);
+
+}  // namespace isoatlas

@@ -1,0 +1,135 @@
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+#include "field/require_isovalue.h"
+#include "field/slab_work.h"
+#include "isoatlas/environment.h"
+#include "isoatlas/error.h"
+#include "isoatlas/octree_front.h"
+#include "mesh/extract_level.h"
+#include "mesh/select_cells.h"
+#include "octree_front/front_mesh.h"
+#include "octree_front/front_phases.h"
+#include "octree_front/leaf_deviation.h"
+
+namespace isoatlas {
+namespace {
+
+void require_options(const Volume& volume, const FrontOptions& options, const ExtractOptions& how) {
+    if (volume.info.extent.rank == 2)
+        throw Error(ErrorKind::unsupported, {.what = "a front of a 2D image", .expected = "a 3D volume", .next = "extract its curves"});
+    const auto require = [](bool holds, const char* what, const char* expected) {
+        if (!holds) throw Error(ErrorKind::usage, {.what = what, .expected = expected});
+    };
+    require(options.max_level >= 0 && options.max_level <= CoalescibleBlocks::kMaxLevel, "the greatest level of a front", "0 to 5");
+    require(how.surface.boundary == Boundary::closed, "a front that is open at the border of the volume", "a closed one");
+    require(options.deviation > 0, "the deviation of a front", "more than 0 voxels");
+    for (const SampleBox& box : options.exact) require(is_inside(box, volume.info.extent), "a region of interest", "samples of the volume");
+}
+
+/// How far the exact surface may be from what a leaf draws.
+double allowed(const FrontOptions& options, const FrontLeaf& leaf) {
+    if (!options.eye) return options.deviation;
+    const Index3 first = leaf.position() - 1;
+    double squared = 0;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        const auto low = static_cast<double>(first[axis]), high = low + static_cast<double>(leaf.width());
+        const double away = std::max({low - options.eye->position[axis], options.eye->position[axis] - high, 0.0});
+        squared += away * away;
+    }
+    return options.eye->slope * std::sqrt(squared);
+}
+
+/// Finds the fans of the leaves, and divides those that are too far from the exact surface until there is none. Returns the greatest
+/// distance; infinity if no limit is asked for.
+double fit(const TauLevel& level, const FrontOptions& options, FrontLeaves& leaves, std::vector<RowFans>& fans, const Context& context) {
+    const auto rows = static_cast<std::size_t>(leaves.rows());
+    fans.resize(rows);
+    std::vector<std::vector<double>> distance(rows);
+    const bool is_limited = options.eye || std::isfinite(options.deviation);
+    for (;;) {
+        for_each_slab_of(1, context, kFrontPhases["leaves"], leaves.rows(), [&](const Slab& slab) {
+            const auto row = static_cast<std::size_t>(slab.z_begin);
+            find_fans(leaves, slab.z_begin, fans[row]);
+            if (!is_limited) return;
+            distance[row].clear();
+            visit_grid(level.volume, [&]<class T>(const SampleGrid<T>& grid) {
+                const LeafDeviation<T> deviation(grid, level.tau, leaves.blocks());
+                std::size_t fan = 0, begin = 0;
+                for (const FrontLeaf& leaf : leaves.leaves(slab.z_begin)) {
+                    distance[row].push_back(0);
+                    if (leaf.level == 0) continue;
+                    const std::span<const EdgeHit> loop = std::span(fans[row].hits).subspan(begin, fans[row].end[fan] - begin);
+                    distance[row].back() = deviation(leaf, loop, fans[row].centre[fan]);
+                    begin = fans[row].end[fan++];
+                }
+            });
+        });
+        if (!is_limited) return std::numeric_limits<double>::infinity();
+        const std::int64_t divided = leaves.divide(
+            [&](std::int64_t row, std::size_t i) {
+                const FrontLeaf& leaf = leaves.leaves(row)[i];
+                return leaf.level > 0 && distance[static_cast<std::size_t>(row)][i] > allowed(options, leaf);
+            },
+            context);
+        if (divided > 0) continue;
+        double worst = 0;
+        for (const std::vector<double>& of_row : distance) {
+            for (const double one : of_row) worst = std::max(worst, one);
+        }
+        return worst;
+    }
+}
+
+/// Does a block touch the cells between these samples, those to the padding included?
+bool touches(const FrontLeaf& leaf, const SampleBox& box) {
+    const Index3 first = leaf.position();
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        if (first[axis] + leaf.width() <= box.begin[axis] || first[axis] > box.end[axis]) return false;
+    }
+    return true;
+}
+
+}  // namespace
+
+FrontSurface extract_front(const Volume& volume, double tau, const FrontOptions& options, const ExtractOptions& how, const Context& context) {
+    const EnvironmentScope scope(context);
+    require_isovalue(tau);
+    require_options(volume, options, how);
+    const HighBits high = classify(volume, tau, context);
+    const TauLevel level{volume, tau, high};
+    std::optional<Components> components;
+    if (needs_representatives(how.surface)) components = find_components(level, tunnel_height_of(how.interpolant, how.tunnel_height), context);
+    IdArray<ContourNumber, std::uint8_t> chosen;
+    if (components) chosen = chosen_contours(level, *components, how.surface);
+
+    const CoalescibleBlocks blocks(high, std::max(options.max_level, 1), context);
+    FrontLeaves leaves(
+        blocks,
+        [&](const FrontLeaf& leaf) {
+            return options.max_level > 0 && std::ranges::none_of(options.exact, [&](const SampleBox& box) { return touches(leaf, box); });
+        },
+        context);
+    std::vector<RowFans> fans;
+    const double deviation = fit(level, options, leaves, fans, context);
+
+    FrontSurface front{{}, std::vector<std::int64_t>(static_cast<std::size_t>(options.max_level) + 1, 0), deviation};
+    for (std::int64_t row = 0; row < leaves.rows(); ++row) {
+        for (const FrontLeaf& leaf : leaves.leaves(row)) ++front.leaves[static_cast<std::size_t>(leaf.level)];
+    }
+    Surface& surface = front.surface;
+    describe(surface, volume.info, tau, how.interpolant, how.tunnel_height);
+    visit_grid(level.volume, [&]<class T>(const SampleGrid<T>& grid) {
+        FrontMesh<T>(level, grid, leaves, how, context, components ? &*components : nullptr).write(fans, surface);
+    });
+    if (!chosen.empty()) keep_contours(chosen, surface);
+    if (how.surface.ids)
+        write_ids(*components, context, surface);
+    else
+        surface.contour.clear();
+    return front;
+}
+
+}  // namespace isoatlas

@@ -1,0 +1,214 @@
+// Every front is a surface with the contours of the exact one, embedded, and its points are points of the exact one.
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "isoatlas/error.h"
+#include "isoatlas/octree_front.h"
+#include "geometry/triangles.h"
+#include "levelset/high_bits.h"
+#include "octree_front/front_mesh.h"
+#include "oracle/coarse_surfaces.h"
+
+namespace oracle {
+namespace {
+
+using isoatlas::CoalescibleBlocks;
+using isoatlas::FrontLeaf;
+using isoatlas::FrontOptions;
+using isoatlas::FrontSurface;
+using isoatlas::Vec3;
+
+/// The first check that does not hold; where a front is farther than a voxel, contours may lie nearer to others than to themselves.
+std::string front_failure(const Surface& front, const Surface& exact, const isoatlas::VolumeInfo& info, double distance) {
+    const isoatlas::SimplifiedReport report = coarse_report(front, exact, info, DistanceUnit::voxel, distance);
+    const bool is_far = std::max(report.to_exact_in_voxels.upper, report.from_exact_in_voxels.upper) > 1;
+    for (const isoatlas::CheckResult& check : report.checks) {
+        if (!check.holds && !(is_far && check.name == "contours_are_one_to_one")) return check.name + ": " + check.detail;
+    }
+    return {};
+}
+
+/// Of each component, in order.
+std::vector<std::int64_t> component_numbers(const Surface& surface) {
+    std::vector<std::int64_t> chi = inspect(surface.points, surface.triangles).component_chi;
+    std::ranges::sort(chi);
+    return chi;
+}
+
+FrontOptions arbitrary_front(const isoatlas::Extent& extent) {
+    FrontOptions options;
+    options.max_level = *rc::gen::inRange(0, 5);
+    if (*rc::gen::arbitrary<bool>()) {
+        isoatlas::SampleBox box{};
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            box.begin[axis] = *rc::gen::inRange<std::int64_t>(0, extent.size[axis]);
+            box.end[axis] = *rc::gen::inRange<std::int64_t>(box.begin[axis] + 1, extent.size[axis] + 1);
+        }
+        options.exact.push_back(box);
+    }
+    return options;
+}
+
+void fronts_have_the_contours_of_the_exact_surface() {
+    const CoarseCase c;
+    RC_PRE(c.exact.closed && !c.exact.triangles.empty());
+    const FrontOptions options = arbitrary_front(c.volume.info.extent);
+    const FrontSurface front = extract_front(c.volume, c.exact.tau, options, {.interpolant = c.exact.interpolant}, arbitrary_context());
+    RC_ASSERT(component_numbers(front.surface) == component_numbers(c.exact));
+    RC_ASSERT(euler_numbers(front.surface) == euler_numbers(c.exact));
+    const std::string failure = front_failure(front.surface, c.exact, c.volume.info, kInfinity);
+    if (!failure.empty()) RC_FAIL(failure);
+    if (options.max_level == 0) RC_ASSERT(front.surface.triangles.size() <= c.exact.triangles.size());
+}
+
+/// Of a point in voxels: does it lie on an edge of the grid?
+bool is_hit(const Vec3& p) {
+    return std::ranges::count_if(p, [](double x) { return x == std::round(x); }) >= 2;
+}
+
+void hits_stay_within_the_deviation() {
+    CoarseCase c;
+    c.volume.info.geometry = {};  // points are in voxels
+    const isoatlas::ExtractOptions how{.interpolant = c.exact.interpolant};
+    const Surface exact = extract(c.volume, c.exact.tau, how);
+    FrontOptions options = arbitrary_front(c.volume.info.extent);
+    options.deviation = *rc::gen::element(0.01, 0.1, 0.4, 1.0);
+    const FrontSurface front = extract_front(c.volume, c.exact.tau, options, how);
+    RC_ASSERT(front.deviation <= options.deviation);
+    RC_ASSERT(component_numbers(front.surface) == component_numbers(exact));
+    const auto point = [&](std::int64_t i) { return front.surface.points[static_cast<std::size_t>(i)]; };
+    for (const Vec3& p : exact.points) {
+        if (!is_hit(p)) continue;
+        double nearest = kInfinity;
+        for (const auto& t : front.surface.triangles)
+            nearest = std::min(nearest, isoatlas::squared_distance(p, point(t[0]), point(t[1]), point(t[2])));
+        RC_ASSERT(std::sqrt(nearest) <= front.deviation + 1e-6);
+    }
+}
+
+void regions_of_interest_are_exact() {
+    CoarseCase c;
+    c.volume.info.geometry = {};
+    FrontOptions options = arbitrary_front(c.volume.info.extent);
+    const FrontSurface front = extract_front(c.volume, c.exact.tau, options);
+    const std::set<Vec3> points(front.surface.points.begin(), front.surface.points.end());
+    for (const Vec3& p : extract(c.volume, c.exact.tau).points) {
+        const bool is_inside = std::ranges::any_of(options.exact, [&](const isoatlas::SampleBox& box) {
+            bool inside = is_hit(p);
+            for (std::size_t axis = 0; axis < 3; ++axis)
+                inside = inside && p[axis] >= static_cast<double>(box.begin[axis]) && p[axis] <= static_cast<double>(box.end[axis] - 1);
+            return inside;
+        });
+        if (is_inside) RC_ASSERT(points.contains(p));
+    }
+}
+
+void points_of_fronts_are_exact_points() {
+    const CoarseCase c;
+    RC_PRE(c.exact.closed && !c.exact.triangles.empty());
+    const FrontOptions options = arbitrary_front(c.volume.info.extent);
+    const FrontSurface front = extract_front(c.volume, c.exact.tau, options, {.interpolant = c.exact.interpolant});
+    const std::set<Vec3> exact(c.exact.points.begin(), c.exact.points.end());
+    const auto strange = std::ranges::count_if(front.surface.points, [&](const Vec3& p) { return !exact.contains(p); });
+    std::int64_t leaves = 0;
+    for (const std::int64_t count : front.leaves) leaves += count;
+    RC_ASSERT(strange <= 8 * leaves);  // centres of fans and what cells add
+    if (options.max_level == 0 && c.exact.interpolant == isoatlas::Interpolant::faces) RC_ASSERT(strange <= 4 * leaves);
+}
+
+void fronts_have_the_same_bytes_for_any_threads() {
+    const CoarseCase c;
+    const FrontOptions options = arbitrary_front(c.volume.info.extent);
+    const FrontSurface one = extract_front(c.volume, c.exact.tau, options, {.interpolant = c.exact.interpolant}, {.threads = 1});
+    const FrontSurface two = extract_front(c.volume, c.exact.tau, options, {.interpolant = c.exact.interpolant}, {.threads = 2, .slab_slices = 3});
+    RC_ASSERT(std::ranges::equal(one.surface.points, two.surface.points));
+    RC_ASSERT(std::ranges::equal(one.surface.normals, two.surface.normals));
+    RC_ASSERT(std::ranges::equal(one.surface.triangles, two.surface.triangles));
+    RC_ASSERT(one.leaves == two.leaves);
+}
+
+/// Leaves of any sizes: those that a coin keeps.
+void every_choice_of_leaves_is_a_front() {
+    const CoarseCase c;
+    RC_PRE(c.exact.closed && !c.exact.triangles.empty());
+    const isoatlas::HighBits high = classify(c.volume, c.exact.tau, {});
+    const isoatlas::TauLevel level{c.volume, c.exact.tau, high};
+    const CoalescibleBlocks blocks(high, *rc::gen::inRange(1, 5), {});
+    const std::uint64_t seed = *rc::gen::arbitrary<std::uint64_t>();
+    const double kept = *rc::gen::element(0.2, 0.5, 0.8);
+    const isoatlas::FrontLeaves leaves(
+        blocks,
+        [&](const FrontLeaf& leaf) {
+            const isoatlas::Index3& b = leaf.block;
+            return hashed(static_cast<double>(b[0]) + 0.5 * leaf.level, static_cast<double>(b[1]) + static_cast<double>(seed % 1000),
+                          static_cast<double>(b[2])) < kept;
+        },
+        {});
+    std::vector<isoatlas::RowFans> fans(static_cast<std::size_t>(leaves.rows()));
+    for (std::int64_t row = 0; row < leaves.rows(); ++row) find_fans(leaves, row, fans[static_cast<std::size_t>(row)]);
+    Surface front;
+    front.closed = true;
+    isoatlas::ExtractOptions how;
+    how.interpolant = c.exact.interpolant;
+    how.surface.ids = false;
+    visit_grid(level.volume, [&]<class T>(const isoatlas::SampleGrid<T>& grid) {
+        isoatlas::FrontMesh<T>(level, grid, leaves, how, {}, nullptr).write(fans, front);
+    });
+    RC_ASSERT(component_numbers(front) == component_numbers(c.exact));
+    const std::string failure = front_failure(front, c.exact, c.volume.info, kInfinity);
+    if (!failure.empty()) RC_FAIL(failure);
+}
+
+TEST(OctreeFronts, AreCoarserWithEachLevel) {
+    const isoatlas::Volume volume = volume_of(kShapes[5]);
+    std::size_t before = isoatlas::extract(volume, kShapes[5].tau).triangles.size() * 2;
+    for (int level = 0; level <= 3; ++level) {
+        const FrontSurface front = extract_front(volume, kShapes[5].tau, {.max_level = level});
+        EXPECT_LT(front.surface.triangles.size(), before);
+        before = front.surface.triangles.size();
+    }
+}
+
+TEST(OctreeFronts, KeepShapesThatDecimatorsBreak) {
+    for (const Shape& shape : kShapes) {
+        const isoatlas::Volume volume = volume_of(shape);
+        const Surface exact = isoatlas::extract(volume, shape.tau);
+        for (const int level : {1, 3, 5}) {
+            const FrontSurface front = extract_front(volume, shape.tau, {.max_level = level});
+            EXPECT_EQ(component_numbers(front.surface), component_numbers(exact)) << shape.name << ", " << level;
+            EXPECT_EQ(front_failure(front.surface, exact, volume.info, kInfinity), "") << shape.name << ", " << level;
+        }
+    }
+}
+
+TEST(OctreeFronts, RefuseOptionsOutOfRange) {
+    const isoatlas::Volume volume = volume_of(kShapes[5]);
+    const auto refused = [&](const isoatlas::Volume& of, const FrontOptions& options) {
+        try {
+            (void)extract_front(of, 0.3, options);
+        } catch (const isoatlas::Error& error) {
+            return error.kind();
+        }
+        return isoatlas::ErrorKind::cancelled;
+    };
+    EXPECT_EQ(refused(volume, {.max_level = 6}), isoatlas::ErrorKind::usage);
+    EXPECT_EQ(refused(volume, {.max_level = -1}), isoatlas::ErrorKind::usage);
+    EXPECT_EQ(refused(volume, {.deviation = 0}), isoatlas::ErrorKind::usage);
+    EXPECT_EQ(refused(volume, {.exact = {{{0, 0, 0}, {99, 1, 1}}}}), isoatlas::ErrorKind::usage);
+    const std::vector<float> flat(16, 1);
+    EXPECT_EQ(refused(isoatlas::make_volume<float>({2, {4, 4, 1}}, flat), {}), isoatlas::ErrorKind::unsupported);
+}
+
+RC_GTEST_PROP(OctreeFronts, HaveTheContoursOfTheExactSurface, ()) { fronts_have_the_contours_of_the_exact_surface(); }
+RC_GTEST_PROP(OctreeFronts, StayWithinTheirDeviation, ()) { hits_stay_within_the_deviation(); }
+RC_GTEST_PROP(OctreeFronts, AreExactInRegionsOfInterest, ()) { regions_of_interest_are_exact(); }
+RC_GTEST_PROP(OctreeFronts, HavePointsOfTheExactSurface, ()) { points_of_fronts_are_exact_points(); }
+RC_GTEST_PROP(OctreeFronts, HaveTheSameBytesForAnyThreads, ()) { fronts_have_the_same_bytes_for_any_threads(); }
+RC_GTEST_PROP(OctreeFronts, AreAnyChoiceOfLeaves, ()) { every_choice_of_leaves_is_a_front(); }
+
+}  // namespace
+}  // namespace oracle
