@@ -16,6 +16,7 @@
 #include "isoatlas/cut.h"
 #include "isoatlas/filter.h"
 #include "isoatlas/objects.h"
+#include "isoatlas/octree_front.h"
 #include "isoatlas/polarity.h"
 #include "isoatlas/samples_wanted.h"
 #include "isoatlas/simplify.h"
@@ -109,6 +110,10 @@ public:
     [[nodiscard]] Cut cut(double tau, const AtlasCutOptions& options = {}, const Context& context = {}, QueryCost* cost = nullptr) const;
     [[nodiscard]] Surface extract(double tau, const SurfaceOptions& options = {}, const Context& context = {},
                                   QueryCost* cost = nullptr) const;
+
+    /// As extract_front() of the volume (isoatlas/octree_front.h); options.exact and options.eye are of the whole volume.
+    [[nodiscard]] FrontSurface extract_front(double tau, const FrontOptions& options, const SurfaceOptions& surface = {},
+                                             const Context& context = {}, QueryCost* cost = nullptr) const;
 
     /// The objects and contours at an isovalue, as in cut(), from the trees alone: no brick is read. Throws Error: usage (tau is not
     /// finite), input (damaged), cancelled. Cost: the first call reads the trees; then O((1 + what is listed) log events).

@@ -12,13 +12,15 @@ namespace isoatlas {
 
 /// Where somebody looks from. Blocks are smaller where they are near.
 struct FrontEye {
-    Vec3 position;   ///< in voxels: the first sample of the volume is at 0 0 0
+    Vec3 position;         ///< in voxels: the first sample of the volume is at 0 0 0
     double slope = 0.001;  ///< how much a surface may deviate, for each voxel that it is away: the angle of a pixel, in radians
 };
 
 struct FrontOptions {
     /// Blocks are at most 2^max_level cells wide, 0 .. 5; 0: the exact surface.
     int max_level = 3;
+    /// Smaller blocks where about so many triangles allow them, of all objects; 0: blocks are as large as may be.
+    std::int64_t triangles = 0;
     /// How far the points of the exact surface on edges of the grid may be from the front, in voxels; infinity: blocks are as large as the
     /// topology allows, which is fast: no distance is measured.
     double deviation = std::numeric_limits<double>::infinity();
@@ -30,8 +32,8 @@ struct FrontOptions {
 
 struct FrontSurface {
     Surface surface;
-    std::vector<std::int64_t> leaves;  ///< how many blocks of each level hold a part of it; of level 0: cells
-    double deviation = 0;             ///< as it was measured; infinity: it was not
+    std::vector<std::int64_t> leaves;  ///< how many blocks of each level hold a part of all objects; of level 0: cells
+    double deviation = 0;              ///< as it was measured; infinity: it was not
 };
 
 /// The surface at tau with the same contours, genus and nesting as that of extract(), and fewer triangles: in a block of cells where it is

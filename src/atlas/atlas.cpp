@@ -20,7 +20,9 @@
 #include "field/negate.h"
 #include "isoatlas/environment.h"
 #include "levelset/cut_level.h"
+#include "mesh/count_cells.h"
 #include "mesh/extract_level.h"
+#include "octree_front/front_level.h"
 #include "store/container.h"
 
 namespace isoatlas {
@@ -84,8 +86,10 @@ struct Atlas::Data {
         *cost += query;
     }
 
-    /// One object from its own part of the store; nullopt when the whole is cheaper, or the voxel lies in no object.
-    std::optional<Surface> extract_object(double tau, ExtractOptions options, const Context& context, QueryCost* cost) {
+    /// One object from its own part of the store, by extract(level, options, active), which returns the surface; nullopt when the whole is
+    /// cheaper, or the voxel lies in no object.
+    template <class Extract>
+    std::optional<Surface> extract_object(double tau, ExtractOptions options, const Context& context, QueryCost* cost, Extract&& extract) {
         LevelQuery spent;
         const double height = tunnel_height_of(options.interpolant, options.tunnel_height);
         std::vector<std::int64_t>& chosen = options.surface.objects;
@@ -95,9 +99,8 @@ struct Atlas::Data {
             return std::nullopt;
         }
         chosen = {local_voxel(*window, chosen[0])};
-        Surface surface;
         std::int64_t active = 0;
-        extract_level(window->at(tau), options, context, surface, cost == nullptr ? nullptr : &active);
+        Surface surface = extract(window->at(tau), options, cost == nullptr ? nullptr : &active);
         count(spent, active, cost);
         for (Array<std::int64_t>* ids : {&surface.object, &surface.contour}) {
             for (std::int64_t& id : *ids) id = whole_voxel(*window, id);
@@ -118,6 +121,12 @@ struct Atlas::Data {
         return answer;
     }
 };
+
+namespace {
+
+bool is_one_object(const SurfaceOptions& options) { return options.objects.size() == 1 && options.contours.empty(); }
+
+}  // namespace
 
 bool is_atlas(const std::string& path) try {
     const std::unique_ptr<File> file = open_file(path);
@@ -151,15 +160,42 @@ Cut Atlas::cut(double tau, const AtlasCutOptions& options, const Context& contex
 Surface Atlas::extract(double tau, const SurfaceOptions& options, const Context& context, QueryCost* cost) const {
     const EnvironmentScope scope(context);
     const ExtractOptions own{.interpolant = interpolant(), .tunnel_height = tunnel_height(), .surface = options};
-    if (options.objects.size() == 1 && options.contours.empty() && std::isfinite(tau)) {
-        std::optional<Surface> surface = data_->extract_object(tau, own, context, cost);
+    const auto extract = [&](const TauLevel& level, const ExtractOptions& how, std::int64_t* active) {
+        Surface surface;
+        extract_level(level, how, context, surface, active);
+        return surface;
+    };
+    if (is_one_object(options) && std::isfinite(tau)) {
+        std::optional<Surface> surface = data_->extract_object(tau, own, context, cost, extract);
         if (surface) return std::move(*surface);
     }
-    return data_->at_level(tau, needs_representatives(options), context, cost, [&](const TauLevel& level, std::int64_t* active) {
-        Surface surface;
-        extract_level(level, own, context, surface, active);
-        return surface;
-    });
+    return data_->at_level(tau, needs_representatives(options), context, cost,
+                           [&](const TauLevel& level, std::int64_t* active) { return extract(level, own, active); });
+}
+
+FrontSurface Atlas::extract_front(double tau, const FrontOptions& options, const SurfaceOptions& surface, const Context& context,
+                                  QueryCost* cost) const {
+    const EnvironmentScope scope(context);
+    require_front(info(), options, surface);
+    const ExtractOptions own{.interpolant = interpolant(), .tunnel_height = tunnel_height(), .surface = surface};
+    const auto extract = [&](const TauLevel& level, const ExtractOptions& how, std::int64_t* active) {
+        if (active != nullptr) *active = count_cells(level, surface.boundary, context);
+        return extract_front_level(level, options, how, context);
+    };
+    if (is_one_object(surface) && std::isfinite(tau) && options.exact.empty() && !options.eye) {  // places would be those of the whole
+        FrontSurface front;
+        std::optional<Surface> object =
+            data_->extract_object(tau, own, context, cost, [&](const TauLevel& level, const ExtractOptions& how, std::int64_t* active) {
+                front = extract(level, how, active);
+                return std::move(front.surface);
+            });
+        if (object) {
+            front.surface = std::move(*object);
+            return front;
+        }
+    }
+    return data_->at_level(tau, needs_representatives(surface), context, cost,
+                           [&](const TauLevel& level, std::int64_t* active) { return extract(level, own, active); });
 }
 
 ActiveObjects Atlas::active(double tau, bool contours, const Context& context) const {

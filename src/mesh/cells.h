@@ -51,7 +51,8 @@ public:
     /// Cell p of row (y, z).
     [[nodiscard]] State state_of(std::int64_t p, std::int64_t y, std::int64_t z, int pattern, bool has_tunnels) const;
     [[nodiscard]] Size size_of(const State& state) const;
-    /// Writes the triangles and points of a cell. point: of its hits, by edges, and room for 8 more; next_point, triangle: places, moved on.
+    /// Writes the triangles and points of a cell. point: of its hits, by edges, and room for 8 more; next_point, triangle: places, moved
+    /// on.
     void write_cell(const State& state, const Index3& voxel, std::int64_t* point, std::int64_t& next_point,
                     std::array<std::int64_t, 3>*& triangle, Surface& surface) const;
 

@@ -24,9 +24,7 @@ public:
         return {first, first + words_, first + 2 * words_};
     }
     void clear(std::int64_t row) { std::fill_n(bits_.data() + 3 * row * words_, 3 * words_, std::uint64_t{0}); }
-    void add(std::int64_t row, int axis, std::int64_t position) {
-        bits_[place(row, axis, position)] |= std::uint64_t{1} << position % 64;
-    }
+    void add(std::int64_t row, int axis, std::int64_t position) { bits_[place(row, axis, position)] |= std::uint64_t{1} << position % 64; }
     /// After the last add(): numbers the hits of a row along each axis. Returns how many there are.
     std::array<std::uint32_t, 3> number(std::int64_t row) {
         std::array<std::uint32_t, 3> count{};

@@ -38,8 +38,8 @@ namespace isoatlas {
 struct MeshDomain {
     const HighBits& high;
     const HitMask* only = nullptr;  ///< the hits that are points; null: all
-    CellWindow cells;             ///< of every row
-    std::int64_t y_begin, y_end;  ///< cell rows: y_begin <= y < y_end
+    CellWindow cells;               ///< of every row
+    std::int64_t y_begin, y_end;    ///< cell rows: y_begin <= y < y_end
     std::int64_t z_begin, z_end;
 
     MeshDomain(const HighBits& bits, Boundary boundary);

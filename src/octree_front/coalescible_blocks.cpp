@@ -12,140 +12,158 @@ namespace {
 
 constexpr std::uint64_t kAll = ~std::uint64_t{0};
 
-/// Which of the 27 vertices.
-constexpr std::size_t vertex_at(int x, int y, int z) { return static_cast<std::size_t>(x + 3 * y + 9 * z); }
-
 Index3 halved(const Index3& blocks) { return {(blocks[0] + 1) / 2, (blocks[1] + 1) / 2, (blocks[2] + 1) / 2}; }
 
-/// Bit i: block i has unambiguous corners and regular vertices. row: of vertices, y first: 128 of each, and the one behind them.
-std::uint64_t test_corners(const std::array<std::array<std::uint64_t, 3>, 9>& row) {
+/// Bit i: the corners of cell i are ambiguous.
+[[gnu::always_inline]] inline std::uint64_t ambiguous_corners(const std::array<std::uint64_t, 8>& corner) {
+    std::uint64_t bad = 0;
+#pragma GCC unroll 6
+    for (std::size_t f = 0; f < 6; ++f) {
+        const std::array<int, 4>& face = kFaceCorners[f];
+        const std::uint64_t a = corner[face[0]], b = corner[face[1]], c = corner[face[2]], d = corner[face[3]];
+        bad |= (a ^ b) & ~((a ^ c) | (b ^ d));
+    }
+    const auto is_alone = [&](int k) { return (corner[k] ^ corner[k ^ 1]) & (corner[k] ^ corner[k ^ 2]) & (corner[k] ^ corner[k ^ 4]); };
+#pragma GCC unroll 4
+    for (int k = 0; k < 4; ++k) bad |= is_alone(k) & is_alone(7 - k);
+    return bad;
+}
+
+/// Bit i: a vertex of block i that is no corner is not regular.
+[[gnu::always_inline]] inline std::uint64_t irregular_vertices(const std::array<std::uint64_t, 27>& vertex) {
+    std::uint64_t bad = 0;
+#pragma GCC unroll 27
+    for (int at = 0; at < 27; ++at) {
+        std::uint64_t differs = at % 3 == 1 || at / 3 % 3 == 1 || at / 9 == 1 ? kAll : 0;  // none at a corner
+        if (at % 3 == 1) differs &= (vertex[at] ^ vertex[at - 1]) & (vertex[at] ^ vertex[at + 1]);
+        if (at / 3 % 3 == 1) differs &= (vertex[at] ^ vertex[at - 3]) & (vertex[at] ^ vertex[at + 3]);
+        if (at / 9 == 1) differs &= (vertex[at] ^ vertex[at - 9]) & (vertex[at] ^ vertex[at + 9]);
+        bad |= differs;
+    }
+    return bad;
+}
+
+/// Rows of vertices, y first: 128 of each, and the one behind them.
+using VertexRows = std::array<std::array<std::uint64_t, 3>, 9>;
+
+/// Bit i: block i has unambiguous corners and regular vertices.
+std::uint64_t test_vertices(const VertexRows& row) {
     std::array<std::uint64_t, 27> vertex;
     for (int i = 0; i < 9; ++i) {
         const std::uint64_t near = even_bits(row[i][0], row[i][1]);
-        vertex[vertex_at(0, i % 3, i / 3)] = near;
-        vertex[vertex_at(1, i % 3, i / 3)] = even_bits(row[i][0] >> 1, row[i][1] >> 1);
-        vertex[vertex_at(2, i % 3, i / 3)] = near >> 1 | row[i][2] << 63;
+        vertex[3 * i] = near;
+        vertex[3 * i + 1] = even_bits(row[i][0] >> 1, row[i][1] >> 1);
+        vertex[3 * i + 2] = near >> 1 | row[i][2] << 63;
     }
     std::array<std::uint64_t, 8> corner;
-    for (int c = 0; c < 8; ++c) corner[c] = vertex[vertex_at(2 * (c & 1), 2 * (c >> 1 & 1), 2 * (c >> 2))];
-    return unambiguous(corner) & regular(vertex);
+    for (int c = 0; c < 8; ++c) corner[c] = vertex[2 * (c & 1) + 6 * (c >> 1 & 1) + 18 * (c >> 2)];
+    return ~(ambiguous_corners(corner) | irregular_vertices(vertex));
+}
+
+/// Bit i: the 8 cells of block i have unambiguous corners.
+std::uint64_t test_cells(const VertexRows& row) {
+    std::uint64_t bad = 0;
+    for (int i = 0; i < 4; ++i) {
+        const int first = (i & 1) + 3 * (i >> 1);
+        for (int half = 0; half < 2; ++half) {
+            std::array<std::uint64_t, 8> corner;
+            for (int k = 0; k < 4; ++k) {
+                const std::array<std::uint64_t, 3>& of = row[first + (k & 1) + 3 * (k >> 1)];
+                corner[2 * k] = of[half], corner[2 * k + 1] = of[half] >> 1 | of[half + 1] << 63;
+            }
+            const std::uint64_t cells = ambiguous_corners(corner);
+            bad |= even_bits(cells | cells >> 1) << 32 * half;
+        }
+    }
+    return ~bad;
 }
 
 }  // namespace
 
-std::uint64_t unambiguous(const std::array<std::uint64_t, 8>& corner) {
-    std::uint64_t bad = 0;
-    for (const std::array<int, 4>& face : kFaceCorners) {
-        const std::uint64_t a = corner[face[0]], b = corner[face[1]], c = corner[face[2]], d = corner[face[3]];
-        bad |= (a ^ b) & ~(a ^ c) & ~(b ^ d);
-    }
-    const auto is_alone = [&](int k) { return (corner[k] ^ corner[k ^ 1]) & (corner[k] ^ corner[k ^ 2]) & (corner[k] ^ corner[k ^ 4]); };
-    for (int k = 0; k < 4; ++k) bad |= is_alone(k) & is_alone(7 - k);
-    return ~bad;
-}
-
-std::uint64_t regular(const std::array<std::uint64_t, 27>& vertex) {
-    constexpr std::array<int, 3> kStep{1, 3, 9};
-    std::uint64_t bad = 0;
-    for (int at = 0; at < 27; ++at) {
-        const std::array<int, 3> place{at % 3, at / 3 % 3, at / 9};
-        std::uint64_t differs = kAll;
-        bool is_corner = true;
-        for (int axis = 0; axis < 3; ++axis) {
-            if (place[axis] != 1) continue;
-            is_corner = false;
-            differs &= (vertex[at] ^ vertex[at - kStep[axis]]) & (vertex[at] ^ vertex[at + kStep[axis]]);
-        }
-        if (!is_corner) bad |= differs;
-    }
-    return ~bad;
-}
+std::uint64_t unambiguous(const std::array<std::uint64_t, 8>& corner) { return ~ambiguous_corners(corner); }
+std::uint64_t regular(const std::array<std::uint64_t, 27>& vertex) { return ~irregular_vertices(vertex); }
 
 CoalescibleBlocks::CoalescibleBlocks(const HighBits& high, int max_level, const Context& context)
     : high_(high), levels_(static_cast<std::size_t>(max_level) + 1) {
     const Extent& extent = high.extent();
-    Index3 blocks{extent.size[0] + 1, extent.size[1] + 1, extent.size[2] + 1};
-    for (std::size_t level = 0; level < levels_.size(); ++level, blocks = halved(blocks)) {
-        levels_[level].coalescible = BitGrid(blocks, true);
-        if (level > 0) levels_[level].vertices = BitGrid({blocks[0] + 1, blocks[1] + 1, blocks[2] + 1}, false);
+    Index3 size{extent.size[0] + 1, extent.size[1] + 1, extent.size[2] + 1};
+    for (int level = 0; level <= max_level; ++level, size = halved(size)) {
+        Level& here = levels_[static_cast<std::size_t>(level)];
+        here.size = size;
+        if (level == 0) continue;
+        here.coalescible = BitGrid(size, true);
+        here.vertices = BitGrid({size[0] + 1, size[1] + 1, size[2] + 1}, false);
     }
-    const auto for_rows = [&](int level, const auto& visit) {
-        const Index3& size = this->blocks(level);
-        for_each_slab(context, kFrontPhases["blocks"], {size[2], size[0] * size[1]}, [&](const Slab& slab) {
+    for (int level = 1; level <= max_level; ++level) {
+        const Index3& vertices = levels_[static_cast<std::size_t>(level)].vertices.size();
+        for_each_slab(context, kFrontPhases["blocks"], {vertices[2], 8 * vertices[0] * vertices[1]}, [&](const Slab& slab) {
             for (std::int64_t z = slab.z_begin; z < slab.z_end; ++z) {
-                for (std::int64_t y = 0; y < size[1]; ++y) visit(y, z);
+                for (std::int64_t y = 0; y < vertices[1]; ++y) test_row(level, y, z);
             }
         });
-    };
-    for_rows(0, [&](std::int64_t y, std::int64_t z) { test_cells(y, z); });
-    for (int level = 1; level <= max_level; ++level) {
-        const Index3& size = levels_[static_cast<std::size_t>(level)].vertices.size();
-        for_each_slab(context, kFrontPhases["blocks"], {size[2], size[0] * size[1]}, [&](const Slab& slab) {
-            for (std::int64_t z = slab.z_begin; z < slab.z_end; ++z) keep_vertices(level, z);
-        });
-        for_rows(level, [&](std::int64_t y, std::int64_t z) { test_blocks(level, y, z); });
     }
-}
-
-std::uint64_t CoalescibleBlocks::vertices(int level, std::int64_t w, std::int64_t y, std::int64_t z) const {
-    if (level == 0) return w < high_.words() ? high_.row(y - 1, z - 1)[w] : 0;
-    const BitGrid& grid = levels_[static_cast<std::size_t>(level)].vertices;
-    return grid.word(grid.row(y, z), w);
 }
 
 int CoalescibleBlocks::pattern(int level, const Index3& block) const {
     int pattern = 0;
-    for (int row = 0; row < 4; ++row) {
-        const std::int64_t y = block[1] + (row & 1), z = block[2] + (row >> 1), w = block[0] / 64, bit = block[0] % 64;
-        std::uint64_t both = vertices(level, w, y, z) >> bit;
-        if (bit == 63) both |= vertices(level, w + 1, y, z) << 1;
-        pattern |= static_cast<int>(both & 3) << 2 * row;
-    }
+    for (int row = 0; row < 4; ++row)
+        pattern |= static_cast<int>(vertex_bits(level, {block[0], block[1] + (row & 1), block[2] + (row >> 1)}) & 3) << 2 * row;
     return pattern;
 }
 
-void CoalescibleBlocks::test_cells(std::int64_t y, std::int64_t z) {
-    BitGrid& cells = levels_[0].coalescible;
-    std::uint64_t* const found = cells.row(y, z);
-    const std::array<const std::uint64_t*, 4> row{high_.row(y - 1, z - 1), high_.row(y, z - 1), high_.row(y - 1, z), high_.row(y, z)};
-    for (std::int64_t w = 0; w < cells.words(); ++w) {
-        std::array<std::uint64_t, 8> corner;
-        std::uint64_t any = 0, all = kAll;
-        for (std::size_t i = 0; i < 4; ++i) {
-            corner[2 * i] = row[i][w], corner[2 * i + 1] = bits_after(row[i], w);
-            any |= corner[2 * i] | corner[2 * i + 1], all &= corner[2 * i] & corner[2 * i + 1];
-        }
-        if ((any & ~all) != 0) found[w] = unambiguous(corner);
+std::array<std::uint8_t, 8> CoalescibleBlocks::child_patterns(int level, const Index3& block) const {
+    std::array<unsigned, 9> row;
+    for (int i = 0; i < 9; ++i)
+        row[i] = static_cast<unsigned>(vertex_bits(level - 1, {2 * block[0], 2 * block[1] + i % 3, 2 * block[2] + i / 3}) & 7);
+    std::array<std::uint8_t, 8> patterns;
+    for (int child = 0; child < 8; ++child) {
+        const int x = child & 1, first = (child >> 1 & 1) + 3 * (child >> 2);
+        patterns[child] = static_cast<std::uint8_t>((row[first] >> x & 3) | (row[first + 1] >> x & 3) << 2 |
+                                                    (row[first + 3] >> x & 3) << 4 | (row[first + 4] >> x & 3) << 6);
     }
+    return patterns;
 }
 
-void CoalescibleBlocks::keep_vertices(int level, std::int64_t z) {
-    BitGrid& grid = levels_[static_cast<std::size_t>(level)].vertices;
-    for (std::int64_t y = 0; y < grid.size()[1]; ++y) {
-        std::uint64_t* const row = grid.row(y, z);
-        for (std::int64_t w = 0; w < grid.words(); ++w)
-            row[w] = even_bits(vertices(level - 1, 2 * w, 2 * y, 2 * z), vertices(level - 1, 2 * w + 1, 2 * y, 2 * z));
-    }
-}
-
-void CoalescibleBlocks::test_blocks(int level, std::int64_t y, std::int64_t z) {
-    BitGrid& blocks = levels_[static_cast<std::size_t>(level)].coalescible;
+std::uint64_t CoalescibleBlocks::test_children(int level, std::int64_t w, std::int64_t y, std::int64_t z) const {
+    std::uint64_t good = kAll;
     const BitGrid& children = levels_[static_cast<std::size_t>(level) - 1].coalescible;
-    std::uint64_t* const found = blocks.row(y, z);
-    for (std::int64_t w = 0; w < blocks.words(); ++w) {
-        std::uint64_t good = kAll;
-        for (int i = 0; i < 4; ++i) {
-            const std::uint64_t* const cells = children.row(2 * y + (i & 1), 2 * z + (i >> 1));
-            const std::uint64_t first = children.word(cells, 2 * w), second = children.word(cells, 2 * w + 1);
-            if ((first & second) != kAll) good &= even_bits(first, second) & even_bits(first >> 1, second >> 1);
+    for (int i = 0; i < 4; ++i) {
+        const std::uint64_t* const row = children.row(2 * y + (i & 1), 2 * z + (i >> 1));
+        const std::uint64_t first = children.word(row, 2 * w), second = children.word(row, 2 * w + 1);
+        if ((first & second) != kAll) good &= even_bits(first, second) & even_bits(first >> 1, second >> 1);
+    }
+    return good;
+}
+
+void CoalescibleBlocks::test_row(int level, std::int64_t y, std::int64_t z) {
+    Level& here = levels_[static_cast<std::size_t>(level)];
+    const bool has_blocks = y < here.size[1] && z < here.size[2];
+    std::uint64_t* const found = has_blocks ? here.coalescible.row(y, z) : nullptr;
+    std::uint64_t* const corners = here.vertices.row(y, z);
+    std::array<const std::uint64_t*, 9> from;
+    for (int i = 0; i < 9; ++i) from[i] = vertex_row(level - 1, 2 * y + i % 3, 2 * z + i / 3);
+    const std::int64_t words = vertex_words(level - 1);
+    const auto word = [words](const std::uint64_t* row, std::int64_t w) { return row != nullptr && w < words ? row[w] : 0; };
+    for (std::int64_t w = 0; w < here.vertices.words(); ++w) {
+        if (!has_blocks || w >= here.coalescible.words()) {
+            corners[w] = even_bits(word(from[0], 2 * w), word(from[0], 2 * w + 1));
+            continue;
         }
-        std::array<std::array<std::uint64_t, 3>, 9> row;
+        VertexRows row;
         std::uint64_t any = 0, all = kAll;
         for (int i = 0; i < 9; ++i) {
-            for (int k = 0; k < 3; ++k) row[i][k] = vertices(level - 1, 2 * w + k, 2 * y + i % 3, 2 * z + i / 3);
+            for (int k = 0; k < 3; ++k) row[i][k] = word(from[i], 2 * w + k);
             any |= row[i][0] | row[i][1] | (row[i][2] & 1), all &= row[i][0] & row[i][1] & (row[i][2] | ~std::uint64_t{1});
         }
-        found[w] = any == 0 || all == kAll ? good : good & test_corners(row);
+        const bool is_uniform = any == 0 || all == kAll;
+        corners[w] = is_uniform ? any : even_bits(row[0][0], row[0][1]);
+        std::uint64_t good = is_uniform ? kAll : test_vertices(row);
+        if (level > 1) {
+            good &= test_children(level, w, y, z);
+        } else if (!is_uniform) {
+            good &= test_cells(row);
+        }
+        found[w] = good;
     }
 }
 

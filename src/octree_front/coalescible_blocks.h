@@ -31,38 +31,51 @@ public:
     static constexpr int kMaxLevel = 5;
 
     /// high: all words, outlives this. max_level: 1 .. kMaxLevel. Cost: some 10 operations a word of 64 vertices where classes are mixed.
-    /// Memory: 2.3 bits a voxel.
+    /// Memory: 0.3 bits a voxel.
     CoalescibleBlocks(const HighBits& high, int max_level, const Context& context);
 
     [[nodiscard]] int max_level() const { return static_cast<int>(levels_.size()) - 1; }
     /// How many blocks cover all cells.
-    [[nodiscard]] const Index3& blocks(int level) const { return levels_[static_cast<std::size_t>(level)].coalescible.size(); }
+    [[nodiscard]] const Index3& blocks(int level) const { return levels_[static_cast<std::size_t>(level)].size; }
     [[nodiscard]] bool is_high(const Index3& position) const {
         if (position[0] >= high_.extent().size[0] + 2) return false;
         return (high_.row(position[1] - 1, position[2] - 1)[position[0] / 64] >> position[0] % 64 & 1) != 0;
     }
-    /// Bit i: the vertex i behind `position` along x is High; at least 63 of them.
-    [[nodiscard]] std::uint64_t vertex_bits(const Index3& position) const {
-        const std::int64_t w = position[0] / 64, bit = position[0] % 64;
-        const std::uint64_t here = vertices(0, w, position[1], position[2]) >> bit;
-        return bit == 0 ? here : here | vertices(0, w + 1, position[1], position[2]) << (64 - bit);
+    /// Bit i: the vertex i behind this one along x is High; at least 63 of them. Vertex: of a block of the level, its first corner.
+    [[nodiscard]] std::uint64_t vertex_bits(int level, const Index3& vertex) const {
+        const std::int64_t w = vertex[0] / 64, bit = vertex[0] % 64;
+        const std::uint64_t here = vertices(level, w, vertex[1], vertex[2]) >> bit;
+        return bit == 0 ? here : here | vertices(level, w + 1, vertex[1], vertex[2]) << (64 - bit);
     }
-    /// Also true of a block whose vertices are of one class.
+    /// Level 1 or more. Also true of a block whose vertices are of one class.
     [[nodiscard]] bool is_coalescible(int level, const Index3& block) const {
         return levels_[static_cast<std::size_t>(level)].coalescible[block];
     }
     /// Bit c: corner c is High (field/cell.h).
     [[nodiscard]] int pattern(int level, const Index3& block) const;
+    /// The patterns of the children of a block of level 1 or more, x first.
+    [[nodiscard]] std::array<std::uint8_t, 8> child_patterns(int level, const Index3& block) const;
 
 private:
     struct Level {
-        BitGrid coalescible;  ///< one bit a block
-        BitGrid vertices;     ///< High corners of its blocks; empty of level 0, where the bits of the samples are
+        Index3 size;          ///< how many blocks
+        BitGrid coalescible;  ///< one bit a block; empty of level 0: one disk or several, a cell is a leaf
+        BitGrid vertices;     ///< High corners of the blocks; empty of level 0, where the bits of the samples are
     };
-    [[nodiscard]] std::uint64_t vertices(int level, std::int64_t w, std::int64_t y, std::int64_t z) const;
-    void test_cells(std::int64_t y, std::int64_t z);
-    void keep_vertices(int level, std::int64_t z);
-    void test_blocks(int level, std::int64_t y, std::int64_t z);
+    /// Null outside, where all are Low.
+    [[nodiscard]] const std::uint64_t* vertex_row(int level, std::int64_t y, std::int64_t z) const {
+        return level == 0 ? high_.row(y - 1, z - 1) : levels_[static_cast<std::size_t>(level)].vertices.row(y, z);
+    }
+    [[nodiscard]] std::int64_t vertex_words(int level) const {
+        return level == 0 ? high_.words() : levels_[static_cast<std::size_t>(level)].vertices.words();
+    }
+    [[nodiscard]] std::uint64_t vertices(int level, std::int64_t w, std::int64_t y, std::int64_t z) const {
+        const std::uint64_t* const row = vertex_row(level, y, z);
+        return row != nullptr && w < vertex_words(level) ? row[w] : 0;
+    }
+    void test_row(int level, std::int64_t y, std::int64_t z);
+    /// Bit i: all children of block 64 w + i of the row are coalescible.
+    [[nodiscard]] std::uint64_t test_children(int level, std::int64_t w, std::int64_t y, std::int64_t z) const;
 
     const HighBits& high_;
     std::vector<Level> levels_;

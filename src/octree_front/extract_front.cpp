@@ -1,33 +1,23 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <memory>
+#include <numeric>
 #include <optional>
 
 #include "field/require_isovalue.h"
 #include "field/slab_work.h"
 #include "isoatlas/environment.h"
 #include "isoatlas/error.h"
-#include "isoatlas/octree_front.h"
 #include "mesh/extract_level.h"
 #include "mesh/select_cells.h"
+#include "octree_front/front_level.h"
 #include "octree_front/front_mesh.h"
 #include "octree_front/front_phases.h"
 #include "octree_front/leaf_deviation.h"
 
 namespace isoatlas {
 namespace {
-
-void require_options(const Volume& volume, const FrontOptions& options, const ExtractOptions& how) {
-    if (volume.info.extent.rank == 2)
-        throw Error(ErrorKind::unsupported, {.what = "a front of a 2D image", .expected = "a 3D volume", .next = "extract its curves"});
-    const auto require = [](bool holds, const char* what, const char* expected) {
-        if (!holds) throw Error(ErrorKind::usage, {.what = what, .expected = expected});
-    };
-    require(options.max_level >= 0 && options.max_level <= CoalescibleBlocks::kMaxLevel, "the greatest level of a front", "0 to 5");
-    require(how.surface.boundary == Boundary::closed, "a front that is open at the border of the volume", "a closed one");
-    require(options.deviation > 0, "the deviation of a front", "more than 0 voxels");
-    for (const SampleBox& box : options.exact) require(is_inside(box, volume.info.extent), "a region of interest", "samples of the volume");
-}
 
 /// How far the exact surface may be from what a leaf draws.
 double allowed(const FrontOptions& options, const FrontLeaf& leaf) {
@@ -42,18 +32,23 @@ double allowed(const FrontOptions& options, const FrontLeaf& leaf) {
     return options.eye->slope * std::sqrt(squared);
 }
 
+void find_all_fans(const FrontLeaves& leaves, std::vector<RowFans>& fans, const Context& context) {
+    fans.resize(static_cast<std::size_t>(leaves.rows()));
+    for_each_slab_of(1, context, kFrontPhases["leaves"], leaves.rows(),
+                     [&](const Slab& slab) { find_fans(leaves, slab.z_begin, fans[static_cast<std::size_t>(slab.z_begin)]); });
+}
+
 /// Finds the fans of the leaves, and divides those that are too far from the exact surface until there is none. Returns the greatest
 /// distance; infinity if no limit is asked for.
 double fit(const TauLevel& level, const FrontOptions& options, FrontLeaves& leaves, std::vector<RowFans>& fans, const Context& context) {
     const auto rows = static_cast<std::size_t>(leaves.rows());
-    fans.resize(rows);
     std::vector<std::vector<double>> distance(rows);
     const bool is_limited = options.eye || std::isfinite(options.deviation);
     for (;;) {
+        find_all_fans(leaves, fans, context);
+        if (!is_limited) return std::numeric_limits<double>::infinity();
         for_each_slab_of(1, context, kFrontPhases["leaves"], leaves.rows(), [&](const Slab& slab) {
             const auto row = static_cast<std::size_t>(slab.z_begin);
-            find_fans(leaves, slab.z_begin, fans[row]);
-            if (!is_limited) return;
             distance[row].clear();
             visit_grid(level.volume, [&]<class T>(const SampleGrid<T>& grid) {
                 const LeafDeviation<T> deviation(grid, level.tau, leaves.blocks());
@@ -67,7 +62,6 @@ double fit(const TauLevel& level, const FrontOptions& options, FrontLeaves& leav
                 }
             });
         });
-        if (!is_limited) return std::numeric_limits<double>::infinity();
         const std::int64_t divided = leaves.divide(
             [&](std::int64_t row, std::size_t i) {
                 const FrontLeaf& leaf = leaves.leaves(row)[i];
@@ -92,37 +86,68 @@ bool touches(const FrontLeaf& leaf, const SampleBox& box) {
     return true;
 }
 
+/// About how many triangles leaves make.
+std::int64_t estimated_triangles(const FrontLeaves& leaves) {
+    std::int64_t triangles = 0;
+    for (std::int64_t row = 0; row < leaves.rows(); ++row) {
+        for (const FrontLeaf& leaf : leaves.leaves(row)) triangles += leaf.level == 0 ? 2 : 5;
+    }
+    return triangles;
+}
+
+/// The largest leaves that the options allow; smaller ones, as long as they make at most so many triangles as wanted.
+std::unique_ptr<FrontLeaves> choose_leaves(const CoalescibleBlocks& blocks, const FrontOptions& options, const Context& context) {
+    std::unique_ptr<FrontLeaves> chosen;
+    for (int largest = options.max_level; largest >= 0; --largest) {
+        auto leaves = std::make_unique<FrontLeaves>(
+            blocks,
+            [&](const FrontLeaf& leaf) {
+                return leaf.level <= largest &&
+                       std::ranges::none_of(options.exact, [&](const SampleBox& box) { return touches(leaf, box); });
+            },
+            context);
+        if (chosen && estimated_triangles(*leaves) > options.triangles) break;
+        chosen = std::move(leaves);
+        if (estimated_triangles(*chosen) >= options.triangles) break;
+    }
+    return chosen;
+}
+
 }  // namespace
 
-FrontSurface extract_front(const Volume& volume, double tau, const FrontOptions& options, const ExtractOptions& how, const Context& context) {
-    const EnvironmentScope scope(context);
-    require_isovalue(tau);
-    require_options(volume, options, how);
-    const HighBits high = classify(volume, tau, context);
-    const TauLevel level{volume, tau, high};
+void require_front(const VolumeInfo& info, const FrontOptions& options, const SurfaceOptions& surface) {
+    if (info.extent.rank == 2)
+        throw Error(ErrorKind::unsupported, {.what = "a front of a 2D image", .expected = "a 3D volume", .next = "extract its curves"});
+    const auto require = [](bool holds, const char* what, const char* expected) {
+        if (!holds) throw Error(ErrorKind::usage, {.what = what, .expected = expected});
+    };
+    require(options.max_level >= 0 && options.max_level <= CoalescibleBlocks::kMaxLevel, "the greatest level of a front", "0 to 5");
+    require(surface.boundary == Boundary::closed, "a front that is open at the border of the volume", "a closed one");
+    require(options.triangles >= 0, "the triangles of a front", "0 or more");
+    require(options.deviation > 0, "the deviation of a front", "more than 0 voxels");
+    for (const SampleBox& box : options.exact) require(is_inside(box, info.extent), "a region of interest", "samples of the volume");
+}
+
+FrontSurface extract_front_level(const TauLevel& level, const FrontOptions& options, const ExtractOptions& how, const Context& context) {
     std::optional<Components> components;
-    if (needs_representatives(how.surface)) components = find_components(level, tunnel_height_of(how.interpolant, how.tunnel_height), context);
+    if (needs_representatives(how.surface))
+        components = find_components(level, tunnel_height_of(how.interpolant, how.tunnel_height), context);
     IdArray<ContourNumber, std::uint8_t> chosen;
     if (components) chosen = chosen_contours(level, *components, how.surface);
 
-    const CoalescibleBlocks blocks(high, std::max(options.max_level, 1), context);
-    FrontLeaves leaves(
-        blocks,
-        [&](const FrontLeaf& leaf) {
-            return options.max_level > 0 && std::ranges::none_of(options.exact, [&](const SampleBox& box) { return touches(leaf, box); });
-        },
-        context);
+    const CoalescibleBlocks blocks(level.high, std::max(options.max_level, 1), context);
+    const std::unique_ptr<FrontLeaves> leaves = choose_leaves(blocks, options, context);
     std::vector<RowFans> fans;
-    const double deviation = fit(level, options, leaves, fans, context);
+    const double deviation = fit(level, options, *leaves, fans, context);
 
     FrontSurface front{{}, std::vector<std::int64_t>(static_cast<std::size_t>(options.max_level) + 1, 0), deviation};
-    for (std::int64_t row = 0; row < leaves.rows(); ++row) {
-        for (const FrontLeaf& leaf : leaves.leaves(row)) ++front.leaves[static_cast<std::size_t>(leaf.level)];
+    for (std::int64_t row = 0; row < leaves->rows(); ++row) {
+        for (const FrontLeaf& leaf : leaves->leaves(row)) ++front.leaves[static_cast<std::size_t>(leaf.level)];
     }
     Surface& surface = front.surface;
-    describe(surface, volume.info, tau, how.interpolant, how.tunnel_height);
+    describe(surface, level.info(), level.tau, how.interpolant, how.tunnel_height);
     visit_grid(level.volume, [&]<class T>(const SampleGrid<T>& grid) {
-        FrontMesh<T>(level, grid, leaves, how, context, components ? &*components : nullptr).write(fans, surface);
+        FrontMesh<T>(level, grid, *leaves, how, context, components ? &*components : nullptr).write(fans, surface);
     });
     if (!chosen.empty()) keep_contours(chosen, surface);
     if (how.surface.ids)
@@ -130,6 +155,15 @@ FrontSurface extract_front(const Volume& volume, double tau, const FrontOptions&
     else
         surface.contour.clear();
     return front;
+}
+
+FrontSurface extract_front(const Volume& volume, double tau, const FrontOptions& options, const ExtractOptions& how,
+                           const Context& context) {
+    const EnvironmentScope scope(context);
+    require_isovalue(tau);
+    require_front(volume.info, options, how.surface);
+    const HighBits high = classify(volume, tau, context);
+    return extract_front_level({volume, tau, high}, options, how, context);
 }
 
 }  // namespace isoatlas

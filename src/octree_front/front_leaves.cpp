@@ -1,5 +1,6 @@
 #include "octree_front/front_leaves.h"
 
+#include <array>
 #include <numeric>
 
 #include "field/slab_work.h"
@@ -10,39 +11,46 @@ namespace isoatlas {
 template <class Add>
 void FrontLeaves::for_children(const FrontLeaf& parent, const Add& add) const {
     const Index3& size = blocks_.blocks(parent.level - 1);
+    const std::array<std::uint8_t, 8> patterns = blocks_.child_patterns(parent.level, parent.block);
     for (int child = 0; child < 8; ++child) {
-        const FrontLeaf leaf{{2 * parent.block[0] + (child & 1), 2 * parent.block[1] + (child >> 1 & 1), 2 * parent.block[2] + (child >> 2)},
-                             parent.level - 1};
-        if (leaf.block[0] < size[0] && leaf.block[1] < size[1] && leaf.block[2] < size[2]) add(leaf);
+        const FrontLeaf leaf{
+            {2 * parent.block[0] + (child & 1), 2 * parent.block[1] + (child >> 1 & 1), 2 * parent.block[2] + (child >> 2)},
+            parent.level - 1};
+        if (leaf.block[0] < size[0] && leaf.block[1] < size[1] && leaf.block[2] < size[2]) add(leaf, patterns[child]);
     }
 }
 
 FrontLeaves::FrontLeaves(const CoalescibleBlocks& blocks, const MayStay& may_stay, const Context& context)
     : blocks_(blocks), rows_y_(blocks.blocks(blocks.max_level())[1]) {
     divided_.resize(static_cast<std::size_t>(blocks.max_level()) + 1);
-    for (int level = 1; level <= blocks.max_level(); ++level) divided_[static_cast<std::size_t>(level)] = BitGrid(blocks.blocks(level), false);
+    for (int level = 1; level <= blocks.max_level(); ++level)
+        divided_[static_cast<std::size_t>(level)] = BitGrid(blocks.blocks(level), false);
     leaves_.resize(static_cast<std::size_t>(rows_y_ * blocks.blocks(blocks.max_level())[2]));
     for_each_slab_of(1, context, kFrontPhases["leaves"], rows(), [&](const Slab& row) { find(row.z_begin, may_stay); });
 }
 
 void FrontLeaves::find(std::int64_t row, const MayStay& may_stay) {
-    std::vector<FrontLeaf> pending;
-    for (std::int64_t x = 0; x < blocks_.blocks(blocks_.max_level())[0]; ++x) {
-        pending.push_back({{x, row % rows_y_, row / rows_y_}, blocks_.max_level()});
-        while (!pending.empty()) {
-            const FrontLeaf block = pending.back();
-            pending.pop_back();
-            const bool is_coalescible = blocks_.is_coalescible(block.level, block.block);
-            if (block.level == 0 || is_coalescible) {
-                const int pattern = blocks_.pattern(block.level, block.block);
-                if (pattern == 0 || pattern == 255) continue;  // of a coalescible block: so are all its vertices
-                if (block.level == 0 || may_stay(block)) {
-                    leaves_[static_cast<std::size_t>(row)].push_back(block);
-                    continue;
-                }
-            }
+    std::vector<FrontLeaf> divided;
+    std::vector<FrontLeaf>& leaves = leaves_[static_cast<std::size_t>(row)];
+    const auto look_at = [&](const FrontLeaf& block, int pattern) {
+        const bool is_uniform = pattern == 0 || pattern == 255;
+        if (block.level == 0) {
+            if (!is_uniform) leaves.push_back(block);
+        } else if (!blocks_.is_coalescible(block.level, block.block)) {
+            divided.push_back(block);
+        } else if (!is_uniform) {  // else all its vertices are of one class
+            (may_stay(block) ? leaves : divided).push_back(block);
+        }
+    };
+    const int top = blocks_.max_level();
+    for (std::int64_t x = 0; x < blocks_.blocks(top)[0]; ++x) {
+        const FrontLeaf first{{x, row % rows_y_, row / rows_y_}, top};
+        look_at(first, blocks_.pattern(top, first.block));
+        while (!divided.empty()) {
+            const FrontLeaf block = divided.back();
+            divided.pop_back();
             divided_[static_cast<std::size_t>(block.level)].set(block.block);
-            for_children(block, [&](const FrontLeaf& child) { pending.push_back(child); });
+            for_children(block, look_at);
         }
     }
 }
@@ -60,8 +68,7 @@ std::int64_t FrontLeaves::divide(const std::function<bool(std::int64_t, std::siz
             }
             ++divided[static_cast<std::size_t>(row)];
             divided_[static_cast<std::size_t>(leaves[i].level)].set(leaves[i].block);
-            for_children(leaves[i], [&](const FrontLeaf& child) {
-                const int pattern = blocks_.pattern(child.level, child.block);
+            for_children(leaves[i], [&](const FrontLeaf& child, int pattern) {
                 if (pattern != 0 && pattern != 255) now.push_back(child);
             });
         }

@@ -55,14 +55,14 @@ template <class T>
 FrontMesh<T>::FrontMesh(const TauLevel& level, const SampleGrid<T>& grid, const FrontLeaves& leaves, const ExtractOptions& how,
                         const Context& context, const Components* components)
     : level_(level),
-      grid_(grid),
+      grid_{grid.samples, grid.extent, grid.layout, level.window ? level.window->origin : Index3{}},
       leaves_(leaves),
       context_(context),
       mask_((level.high.extent().size[1] + 2) * (level.high.extent().size[2] + 2), level.high.words()),
       domain_(level.high, Boundary::closed),
-      map_(level.info().geometry, level.info().extent),
+      map_(level.info().geometry, level.window ? level.window->whole : level.info().extent),
       flip_(is_mirrored(level.info())),
-      cells_(grid, level.tau, domain_, map_, how, flip_),
+      cells_(grid_, level.tau, domain_, map_, how, flip_),
       groups_(domain_),
       normals_(how.surface.normals),
       components_(components) {
@@ -72,7 +72,8 @@ FrontMesh<T>::FrontMesh(const TauLevel& level, const SampleGrid<T>& grid, const 
 template <class T>
 auto FrontMesh<T>::state_of(const FrontLeaf& leaf) const -> typename CellWriter<T>::State {
     const Index3& cell = leaf.block;
-    return cells_.state_of(cell[0], cell[1] - 1, cell[2] - 1, leaves_.blocks().pattern(0, cell), cells_.has_tunnels(cell[1] - 1, cell[2] - 1));
+    return cells_.state_of(cell[0], cell[1] - 1, cell[2] - 1, leaves_.blocks().pattern(0, cell),
+                           cells_.has_tunnels(cell[1] - 1, cell[2] - 1));
 }
 
 template <class T>
@@ -160,7 +161,8 @@ void FrontMesh<T>::write(const std::vector<RowFans>& fans, Surface& surface) {
         }
     }
     const HitWriter<T> hits(grid_, level_.tau, map_, domain_, surface);
-    for_each_slab_of(1, context_, kFrontPhases["points"], hits.bundles(), [&](const Slab& bundle) { hits.write(bundle.z_begin, layout_, groups_); });
+    for_each_slab_of(1, context_, kFrontPhases["points"], hits.bundles(),
+                     [&](const Slab& bundle) { hits.write(bundle.z_begin, layout_, groups_); });
     for_each_slab_of(1, context_, kFrontPhases["points"], domain_.rows_z(), [&](const Slab& slab) {
         const std::int64_t z = slab.z_begin - 1;
         for (std::int64_t y = -1; y + 1 < domain_.rows_y(); ++y) {
@@ -170,9 +172,8 @@ void FrontMesh<T>::write(const std::vector<RowFans>& fans, Surface& surface) {
             if (components_ != nullptr) write_contours(*components_, domain_, y, z, place, surface);
         }
     });
-    for_each_slab_of(1, context_, kFrontPhases["triangles"], leaves_.rows(), [&](const Slab& slab) {
-        write_row(slab.z_begin, fans[static_cast<std::size_t>(slab.z_begin)], surface);
-    });
+    for_each_slab_of(1, context_, kFrontPhases["triangles"], leaves_.rows(),
+                     [&](const Slab& slab) { write_row(slab.z_begin, fans[static_cast<std::size_t>(slab.z_begin)], surface); });
 }
 
 template <class T>

@@ -18,9 +18,9 @@ namespace isoatlas {
 
 /// The fans of a row of leaves (octree_front/front_leaves.h).
 struct RowFans {
-    std::vector<EdgeHit> hits;           ///< of all loops
-    std::vector<std::size_t> end;        ///< of each leaf of level 1 or more: where its loop ends in `hits`
-    std::vector<EdgeHit> centre;         ///< of each such leaf; axis -1: the mean of its loop
+    std::vector<EdgeHit> hits;               ///< of all loops
+    std::vector<std::size_t> end;            ///< of each leaf of level 1 or more: where its loop ends in `hits`
+    std::vector<EdgeHit> centre;             ///< of each such leaf; axis -1: the mean of its loop
     std::int64_t triangles = 0, points = 0;  ///< of the row, beside hits
 };
 
@@ -30,8 +30,8 @@ void find_fans(const FrontLeaves& leaves, std::int64_t row, RowFans& fans);
 template <class T>
 class FrontMesh {
 public:
-    FrontMesh(const TauLevel& level, const SampleGrid<T>& grid, const FrontLeaves& leaves, const ExtractOptions& how, const Context& context,
-              const Components* components);
+    FrontMesh(const TauLevel& level, const SampleGrid<T>& grid, const FrontLeaves& leaves, const ExtractOptions& how,
+              const Context& context, const Components* components);
     void write(const std::vector<RowFans>& fans, Surface& surface);
 
 private:

@@ -21,7 +21,8 @@ Vec3 LeafDeviation<T>::place_of(const EdgeHit& hit) const {
     } else if (first[axis] + 1 == grid_.extent.size[axis]) {
         place[axis] += kHitMargin;
     } else {
-        place[axis] += hit_fraction(static_cast<double>(grid_.corner(first, 0)), static_cast<double>(grid_.corner(first, 1 << hit.axis)), tau_);
+        place[axis] +=
+            hit_fraction(static_cast<double>(grid_.corner(first, 0)), static_cast<double>(grid_.corner(first, 1 << hit.axis)), tau_);
     }
     return place;
 }
@@ -49,10 +50,11 @@ double LeafDeviation<T>::operator()(const FrontLeaf& leaf, std::span<const EdgeH
     const std::uint64_t vertices = (std::uint64_t{1} << (width + 1)) - 1;
     for (std::int64_t z = first[2]; z <= first[2] + width; ++z) {
         for (std::int64_t y = first[1]; y <= first[1] + width; ++y) {
-            const std::uint64_t row = blocks_.vertex_bits({first[0], y, z});
-            const std::array<std::uint64_t, 3> hits{(row ^ row >> 1) & vertices >> 1,
-                                                    y < first[1] + width ? (row ^ blocks_.vertex_bits({first[0], y + 1, z})) & vertices : 0,
-                                                    z < first[2] + width ? (row ^ blocks_.vertex_bits({first[0], y, z + 1})) & vertices : 0};
+            const std::uint64_t row = blocks_.vertex_bits(0, {first[0], y, z});
+            const std::array<std::uint64_t, 3> hits{
+                (row ^ row >> 1) & vertices >> 1,
+                y < first[1] + width ? (row ^ blocks_.vertex_bits(0, {first[0], y + 1, z})) & vertices : 0,
+                z < first[2] + width ? (row ^ blocks_.vertex_bits(0, {first[0], y, z + 1})) & vertices : 0};
             for (int axis = 0; axis < 3; ++axis) {
                 for (std::uint64_t rest = hits[static_cast<std::size_t>(axis)]; rest != 0; rest &= rest - 1)
                     look_at({{first[0] + std::countr_zero(rest), y, z}, axis});

@@ -34,7 +34,8 @@ struct Segment {
 };
 
 /// Adds the segments in a face of a leaf.
-void add_segments(const FrontLeaves& leaves, const FrontLeaf& leaf, int face, std::vector<FrontLeaf>& pending, std::vector<Segment>& found) {
+void add_segments(const FrontLeaves& leaves, const FrontLeaf& leaf, int face, std::vector<FrontLeaf>& pending,
+                  std::vector<Segment>& found) {
     const int normal = kFaceAxes[face / 2].normal, side = face & 1;
     pending.push_back(leaf);
     while (!pending.empty()) {
@@ -47,8 +48,9 @@ void add_segments(const FrontLeaves& leaves, const FrontLeaf& leaf, int face, st
             leaves.is_divided(part.level, across)) {
             for (int child = 0; child < 8; ++child) {
                 if ((child >> normal & 1) != side) continue;
-                pending.push_back({{2 * part.block[0] + (child & 1), 2 * part.block[1] + (child >> 1 & 1), 2 * part.block[2] + (child >> 2)},
-                                   part.level - 1});
+                pending.push_back(
+                    {{2 * part.block[0] + (child & 1), 2 * part.block[1] + (child >> 1 & 1), 2 * part.block[2] + (child >> 2)},
+                     part.level - 1});
             }
             continue;
         }
@@ -80,7 +82,32 @@ EdgeHit hit_on_edge(const CoalescibleBlocks& blocks, int level, const Index3& bl
     return {first, axis};
 }
 
+namespace {
+
+/// Is a neighbour across a face of the leaf divided?
+bool has_smaller_neighbour(const FrontLeaves& leaves, const FrontLeaf& leaf) {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        for (const int step : {-1, 1}) {
+            Index3 across = leaf.block;
+            across[axis] += step;
+            if (across[axis] >= 0 && across[axis] < leaves.blocks().blocks(leaf.level)[axis] && leaves.is_divided(leaf.level, across))
+                return true;
+        }
+    }
+    return false;
+}
+
+}  // namespace
+
 void find_loop(const FrontLeaves& leaves, const FrontLeaf& leaf, std::vector<EdgeHit>& hits) {
+    if (!has_smaller_neighbour(leaves, leaf)) {  // that of a cell with its corners
+        const CellLoops& loop = cell_loops(leaves.blocks().pattern(leaf.level, leaf.block), 0);
+        ISOATLAS_CHECK(loop.count == 1);
+        hits.clear();
+        for (int i = 0; i < loop.size(0); ++i)
+            hits.push_back(hit_on_edge(leaves.blocks(), leaf.level, leaf.block, loop.edge[static_cast<std::size_t>(i)]));
+        return;
+    }
     thread_local std::vector<Segment> segments;
     thread_local std::vector<FrontLeaf> pending;
     segments.clear();
@@ -109,7 +136,8 @@ std::optional<EdgeHit> hit_inside(const CoalescibleBlocks& blocks, const FrontLe
     std::ranges::stable_sort(axes, [&](int a, int b) { return std::abs(slope[a]) > std::abs(slope[b]); });
     Index3 sum{0, 0, 0};  // twice the places, so that the middles of edges are whole
     for (const EdgeHit& hit : loop) {
-        for (std::size_t axis = 0; axis < 3; ++axis) sum[axis] += 2 * (hit.position[axis] - first[axis]) + (hit.axis == static_cast<int>(axis));
+        for (std::size_t axis = 0; axis < 3; ++axis)
+            sum[axis] += 2 * (hit.position[axis] - first[axis]) + (hit.axis == static_cast<int>(axis));
     }
     Index3 middle;
     const auto count = static_cast<std::int64_t>(loop.size());

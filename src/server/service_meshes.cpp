@@ -21,6 +21,7 @@ namespace {
 constexpr std::int64_t kFirstTriangles = 20'000;  ///< max of the first request of a page (web/src/viewer/api/surfaces.ts)
 constexpr std::int64_t kTriangleBytes = 128;      ///< of a triangle while a response is made
 constexpr std::int64_t kMaxPointDivisions = 8;
+constexpr int kFrontLevel = 4;        ///< blocks of a front are at most 16 cells wide
 constexpr double kStepsOfVoxel = 64;  ///< steps of positions per voxel
 
 /// The entry that every page shows first; null: none, or a cavity.
@@ -71,12 +72,28 @@ bool Service::is_first(const Atlas& atlas, double tau, const SurfaceOptions& opt
 
 WireMesh Service::mesh_of(const Atlas& atlas, double tau, const SurfaceOptions& options, const MeshWanted& wanted, const Context& context) {
     const std::optional<SeenSurface> level = levels_.find(atlas, options, tau, wanted);
-    if (!level) return wire(extract(atlas, tau, options, context), wanted.triangles, context);
+    if (!level) {
+        const Surface exact = extract(atlas, tau, options, context);
+        std::optional<WireMesh> mesh = front_of(atlas, exact, options, wanted.triangles, context);
+        return mesh ? std::move(*mesh) : wire(exact, wanted.triangles, context);
+    }
     WireMesh mesh = wire(level->simplified.surface, wanted.triangles, context);
     if (mesh.coarse) return mesh;  // reduced once more, without a promise
     mesh.coarse = level->simplified.distance > 0;
     mesh.distance = level->simplified.distance;
     if (wanted.from) mesh.pixels = level->pixels;
+    return mesh;
+}
+
+std::optional<WireMesh> Service::front_of(const Atlas& atlas, const Surface& exact, const SurfaceOptions& options, std::int64_t triangles,
+                                          const Context& context) const {
+    if (static_cast<std::int64_t>(exact.triangles.size()) <= triangles) return std::nullopt;
+    const FrontSurface front = atlas.extract_front(exact.tau, {.max_level = kFrontLevel, .triangles = triangles}, options, context);
+    if (static_cast<std::int64_t>(front.surface.triangles.size()) > triangles) return std::nullopt;
+    WireMesh mesh = wire(front.surface, 0, context);
+    const auto widest = std::ranges::find_if(front.leaves.rbegin(), front.leaves.rend(), [](std::int64_t count) { return count > 0; });
+    mesh.coarse = true;  // both surfaces of a block lie in it
+    mesh.distance = std::sqrt(3.0) * static_cast<double>(std::int64_t{1} << (front.leaves.rend() - widest - 1));
     return mesh;
 }
 

@@ -73,6 +73,34 @@ RC_GTEST_FIXTURE_PROP(Stores, CountWhatAQueryCosts, ()) {
     RC_ASSERT(one.cells_active == active_cells_of(cut, volume, object));
 }
 
+RC_GTEST_FIXTURE_PROP(Stores, HaveTheFrontsOfTheirVolume, ()) {
+    Grid grid = *arbitrary_grid(9, 400);
+    grid.rank = 3;
+    const Volume volume = to_volume(grid, arbitrary_type(grid));
+    isoatlas::build_atlas(path_, volume);
+    const Atlas atlas(path_);
+    const double tau = grid.value[*rc::gen::inRange<std::size_t>(0, grid.value.size())];
+    isoatlas::SurfaceOptions options;
+    const isoatlas::Cut cut = isoatlas::cut(volume, tau);
+    if (*rc::gen::arbitrary<bool>()) options.objects = {cut.objects[*rc::gen::inRange<std::size_t>(0, cut.objects.size())].id};
+    const isoatlas::FrontOptions blocks{.max_level = *rc::gen::inRange(0, 4), .triangles = *rc::gen::element(0, 100)};
+    const isoatlas::FrontSurface stored = atlas.extract_front(tau, blocks, options);
+    const isoatlas::FrontSurface whole = extract_front(volume, tau, blocks, {.surface = options});
+    const auto chi = [](const Surface& surface) {
+        std::vector<Index> numbers = inspect(surface.points, surface.triangles).component_chi;
+        std::ranges::sort(numbers);
+        return numbers;
+    };
+    RC_ASSERT(chi(stored.surface) == chi(whole.surface));
+    const std::set<Index> contours(stored.surface.contour.begin(), stored.surface.contour.end());
+    RC_ASSERT(contours == std::set<Index>(whole.surface.contour.begin(), whole.surface.contour.end()));
+    if (options.objects.empty()) {
+        RC_ASSERT(std::ranges::equal(stored.surface.points, whole.surface.points));
+        RC_ASSERT(std::ranges::equal(stored.surface.triangles, whole.surface.triangles));
+        RC_ASSERT(stored.leaves == whole.leaves);
+    }
+}
+
 void check_bounds(const isoatlas::Bounds& bounds, Index number, bool exact) {
     RC_ASSERT(bounds.min <= number);
     RC_ASSERT(number <= bounds.max);

@@ -6,9 +6,9 @@
 #include <cmath>
 #include <set>
 
+#include "geometry/triangles.h"
 #include "isoatlas/error.h"
 #include "isoatlas/octree_front.h"
-#include "geometry/triangles.h"
 #include "levelset/high_bits.h"
 #include "octree_front/front_mesh.h"
 #include "oracle/coarse_surfaces.h"
@@ -124,7 +124,8 @@ void fronts_have_the_same_bytes_for_any_threads() {
     const CoarseCase c;
     const FrontOptions options = arbitrary_front(c.volume.info.extent);
     const FrontSurface one = extract_front(c.volume, c.exact.tau, options, {.interpolant = c.exact.interpolant}, {.threads = 1});
-    const FrontSurface two = extract_front(c.volume, c.exact.tau, options, {.interpolant = c.exact.interpolant}, {.threads = 2, .slab_slices = 3});
+    const FrontSurface two =
+        extract_front(c.volume, c.exact.tau, options, {.interpolant = c.exact.interpolant}, {.threads = 2, .slab_slices = 3});
     RC_ASSERT(std::ranges::equal(one.surface.points, two.surface.points));
     RC_ASSERT(std::ranges::equal(one.surface.normals, two.surface.normals));
     RC_ASSERT(std::ranges::equal(one.surface.triangles, two.surface.triangles));
@@ -140,14 +141,14 @@ void every_choice_of_leaves_is_a_front() {
     const CoalescibleBlocks blocks(high, *rc::gen::inRange(1, 5), {});
     const std::uint64_t seed = *rc::gen::arbitrary<std::uint64_t>();
     const double kept = *rc::gen::element(0.2, 0.5, 0.8);
-    const isoatlas::FrontLeaves leaves(
-        blocks,
-        [&](const FrontLeaf& leaf) {
-            const isoatlas::Index3& b = leaf.block;
-            return hashed(static_cast<double>(b[0]) + 0.5 * leaf.level, static_cast<double>(b[1]) + static_cast<double>(seed % 1000),
-                          static_cast<double>(b[2])) < kept;
-        },
-        {});
+    const isoatlas::FrontLeaves leaves(blocks,
+                                       [&](const FrontLeaf& leaf) {
+                                           const isoatlas::Index3& b = leaf.block;
+                                           return hashed(static_cast<double>(b[0]) + 0.5 * leaf.level,
+                                                         static_cast<double>(b[1]) + static_cast<double>(seed % 1000),
+                                                         static_cast<double>(b[2])) < kept;
+                                       },
+                                       {});
     std::vector<isoatlas::RowFans> fans(static_cast<std::size_t>(leaves.rows()));
     for (std::int64_t row = 0; row < leaves.rows(); ++row) find_fans(leaves, row, fans[static_cast<std::size_t>(row)]);
     Surface front;
@@ -170,6 +171,34 @@ TEST(OctreeFronts, AreCoarserWithEachLevel) {
         const FrontSurface front = extract_front(volume, kShapes[5].tau, {.max_level = level});
         EXPECT_LT(front.surface.triangles.size(), before);
         before = front.surface.triangles.size();
+    }
+}
+
+TEST(OctreeFronts, AreAsFineAsSoManyTrianglesAllow) {
+    const isoatlas::Volume volume = volume_of(kShapes[5]);
+    std::size_t before = 0;
+    for (const std::int64_t most : {1, 1000, 2500, 100'000}) {
+        const FrontSurface front = extract_front(volume, kShapes[5].tau, {.max_level = 4, .triangles = most});
+        EXPECT_GE(front.surface.triangles.size(), before);
+        if (most > 2000) EXPECT_LE(front.surface.triangles.size(), 1.5 * static_cast<double>(most));
+        before = front.surface.triangles.size();
+    }
+    EXPECT_EQ(before, extract(volume, kShapes[5].tau).triangles.size());
+}
+
+TEST(OctreeFronts, AreFineNearTheEye) {
+    isoatlas::Volume volume = volume_of(kShapes[5]);
+    volume.info.geometry = {};
+    const FrontSurface front = extract_front(volume, kShapes[5].tau, {.eye = isoatlas::FrontEye{{0, 0, 0}, 0.01}});
+    const FrontSurface far = extract_front(volume, kShapes[5].tau, {.eye = isoatlas::FrontEye{{-4000, 0, 0}, 0.01}});
+    EXPECT_LT(far.surface.triangles.size(), front.surface.triangles.size());
+    for (const Vec3& p : extract(volume, kShapes[5].tau).points) {
+        double nearest = kInfinity;
+        for (const auto& t : front.surface.triangles) {
+            const auto corner = [&](std::size_t i) { return front.surface.points[static_cast<std::size_t>(t[i])]; };
+            nearest = std::min(nearest, isoatlas::squared_distance(p, corner(0), corner(1), corner(2)));
+        }
+        EXPECT_LE(std::sqrt(nearest), 0.01 * std::sqrt(p[0] * p[0] + p[1] * p[1] + p[2] * p[2]) + 1e-6);
     }
 }
 

@@ -87,6 +87,15 @@ Cut Source::cut(double tau, bool label) {
 }
 
 Surface Source::extract(double tau, const SurfaceOptions& options) {
+    if (arguments_.octree.is_asked_for()) {
+        octree_.asked = arguments_.octree;
+        const ExtractOptions how{.interpolant = interpolant(), .tunnel_height = tunnel_height(), .surface = options};
+        const auto front = [&](const FrontOptions& blocks) {
+            return atlas_ && !arguments_.voxel_units ? atlas_->extract_front(tau, blocks, options, context(), &cost_)
+                                                     : extract_front(volume(), tau, blocks, how, context());
+        };
+        return octree_.take(front(octree_.options()));
+    }
     if (atlas_ && !arguments_.voxel_units) return atlas_->extract(tau, options, context(), &cost_);
     return isoatlas::extract(volume(), tau, {.interpolant = interpolant(), .tunnel_height = tunnel_height(), .surface = options},
                              context());

@@ -9,6 +9,7 @@
 
 #include <isoatlas/isoatlas.h>
 
+#include "data/octree.h"
 #include "data/session.h"
 
 namespace isoatlas::cli {
@@ -40,7 +41,9 @@ public:
 
     [[nodiscard]] Cut cut(double tau, bool label);
     /// options: interpolant and tunnel height are those of the source.
+    /// With --octree by blocks of cells.
     [[nodiscard]] Surface extract(double tau, const SurfaceOptions& options);
+    [[nodiscard]] const OctreeUse& octree() const { return octree_; }
     /// The table of objects.
     [[nodiscard]] ObjectTable objects(const RankOptions& options);
     [[nodiscard]] CavityTable cavities(const RankOptions& options);
@@ -84,6 +87,7 @@ private:
     std::optional<Volume> volume_, part_;
     std::optional<ValueRange> range_;
     QueryCost cost_;
+    OctreeUse octree_;
     VolumeInfo info_;
 };
 

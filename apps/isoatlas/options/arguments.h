@@ -36,6 +36,13 @@ struct SimplificationArguments {
     [[nodiscard]] bool is_asked_for() const { return voxels || length || triangles; }
 };
 
+/// extract: --octree, --octree-error
+struct OctreeArguments {
+    int cells = 0;  ///< 0: not asked for
+    std::optional<double> error;
+    [[nodiscard]] bool is_asked_for() const { return cells > 0; }
+};
+
 struct Arguments {
     std::string verb;
     std::string file;               ///< VOLUME, MESH, or the name of a phantom, verb or shell
@@ -77,12 +84,13 @@ struct Arguments {
     // Selection
     std::optional<double> tau;  ///< in reported (calibrated) units, as typed
     std::vector<ObjectReference> objects, contours;
-    bool exact = false;                          ///< handles: exact pairs
-    bool no_percolation = false;                 ///< measure: leave it out
-    bool thickness = false;                      ///< measure
-    bool split = false, for_print = false;       ///< extract
-    std::optional<double> min_wall;              ///< extract --for-print: millimetres
-    SimplificationArguments simplification{};    ///< extract
+    bool exact = false;                        ///< handles: exact pairs
+    bool no_percolation = false;               ///< measure: leave it out
+    bool thickness = false;                    ///< measure
+    bool split = false, for_print = false;     ///< extract
+    std::optional<double> min_wall;            ///< extract --for-print: millimetres
+    SimplificationArguments simplification{};  ///< extract
+    OctreeArguments octree;
     std::int64_t coarser = 0;                    ///< extract: versions with fewer triangles
     std::vector<ObjectReference> removed_names;  ///< name
     bool best = false, all = false, zones = false, list = false, cavities = false, both = false;

@@ -105,6 +105,14 @@ void extract_options(CLI::App& app, Arguments& arguments, Typed& typed) {
     add_number(app, "--triangles", arguments.simplification.triangles, "Simplify to this number of triangles, not fewer")
         ->check(in_range(4, 1'000'000'000))
         ->type_name("N");
+    add_number(app, "--octree", arguments.octree.cells,
+               "Coarse at once, with the same topology: blocks of up to so many cells (2, 4, 8, 16, 32) where it allows them")
+        ->check(in_range(2, 32))
+        ->type_name("CELLS");
+    add_number(app, "--octree-error", arguments.octree.error,
+               "With --octree: smaller blocks where points of the exact surface are farther away")
+        ->check(in_range(1e-6, 1e6))
+        ->type_name("VOXELS");
     add_number(app, "--coarser", arguments.coarser, "With .glb: so many coarser versions, for viewers to draw where it is small")
         ->check(in_range(1, 16))
         ->type_name("N");

@@ -5,6 +5,7 @@
 
 #include "data/chosen_surfaces.h"
 #include "data/coarser.h"
+#include "data/octree.h"
 #include "data/precomputed.h"
 #include "data/print_surface.h"
 #include "data/sides.h"
@@ -165,6 +166,7 @@ Json to_json(const Arguments& arguments, Source& source, const Written& written)
     json["warnings"] = written.warnings;
     json["notes"] = written.notes;
     json["simplification"] = written.simplification ? simplification_json(*written.simplification) : Json(nullptr);
+    json["octree"] = arguments.octree.is_asked_for() ? octree_json(source.octree()) : Json(nullptr);
     json["coarser"] = coarser_json(written.coarser);
     json["levels"] = levels_json(written.levels);
     json["print"] = written.print ? printing_json(*written.print) : Json(nullptr);
@@ -200,6 +202,7 @@ void print_text(const Arguments& arguments, Terminal& terminal, Source& source, 
                            << connectivity << '\n';
     }
     if (written.simplification) terminal.out() << simplification_text(*written.simplification) << '\n';
+    if (arguments.octree.is_asked_for()) terminal.out() << octree_text(source.octree()) << '\n';
     if (written.coarser.most > 0) terminal.out() << coarser_text(written.coarser) << '\n';
     if (!written.levels.empty()) terminal.out() << levels_text(written.levels) << '\n';
     if (written.print) terminal.out() << printing_text(*written.print) << '\n';
@@ -291,6 +294,7 @@ Written write_several(const Arguments& arguments, Sides& sides, const std::vecto
 }  // namespace
 
 int run_extract(const Arguments& arguments, Terminal& terminal) {
+    check_octree(arguments);
     if (arguments.inputs.are_labels && !arguments.tau && !arguments.best) {
         check_output(arguments, {".ply", ".stl", ".obj", ".vtp", ".glb", ".vtkhdf", kPrecomputedExtension});
         return extract_label_objects(arguments, terminal);

@@ -1,0 +1,62 @@
+#include "data/octree.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+#include <fmt/format.h>
+
+namespace isoatlas::cli {
+
+void check_octree(const Arguments& arguments) {
+    const auto contradicts = [](const std::string& option, const std::string& other) {
+        throw Error(ErrorKind::usage, {.what = option + " and " + other + " contradict each other", .next = "omit one of them"});
+    };
+    if (!arguments.octree.is_asked_for()) {
+        if (arguments.octree.error)
+            throw Error(ErrorKind::usage, {.what = "--octree-error is a limit of --octree", .next = "add --octree CELLS"});
+        return;
+    }
+    if (!std::has_single_bit(static_cast<unsigned>(arguments.octree.cells)))
+        throw Error(ErrorKind::usage,
+                    {.what = "--octree " + std::to_string(arguments.octree.cells), .expected = "2, 4, 8, 16 or 32 cells"});
+    if (arguments.boundary == Boundary::open) contradicts("--octree", "--boundary open");
+    if (arguments.simplification.is_asked_for()) contradicts("--octree", "--simplify, --simplify-error and --triangles");
+    if (arguments.coarser > 0) contradicts("--octree", "--coarser");
+    if (arguments.inputs.are_labels && !arguments.tau && !arguments.best) contradicts("--octree", "labels");
+}
+
+FrontOptions OctreeUse::options() const {
+    FrontOptions options;
+    options.max_level = std::countr_zero(static_cast<unsigned>(asked.cells));
+    if (asked.error) options.deviation = *asked.error;
+    return options;
+}
+
+Surface OctreeUse::take(FrontSurface front) {
+    deviation = std::max(deviation, front.deviation);
+    leaves.resize(front.leaves.size());
+    for (std::size_t level = 0; level < front.leaves.size(); ++level) leaves[level] += front.leaves[level];
+    return std::move(front.surface);
+}
+
+std::string octree_text(const OctreeUse& use) {
+    std::string text;
+    for (std::size_t level = use.leaves.size(); level-- > 0;) {
+        if (use.leaves[level] == 0) continue;
+        text += fmt::format("{}{} of {}", text.empty() ? "blocks of cells: " : ", ", use.leaves[level], 1 << level);
+    }
+    const std::string within =
+        std::isfinite(use.deviation) ? fmt::format("points of the exact surface within {:.3g} voxels, ", use.deviation) : "";
+    return text + "; " + within + "with the same topology";
+}
+
+Json octree_json(const OctreeUse& use) {
+    Json json{{"cells", use.asked.cells}};
+    json["deviation"] = std::isfinite(use.deviation) ? Json(use.deviation) : Json(nullptr);
+    Json& leaves = json["leaves"] = Json::array();
+    for (std::size_t level = 0; level < use.leaves.size(); ++level) leaves.push_back({{"cells", 1 << level}, {"count", use.leaves[level]}});
+    return json;
+}
+
+}  // namespace isoatlas::cli

@@ -1,0 +1,16 @@
+// extract_front() of classified samples.
+#pragma once
+
+#include "isoatlas/octree_front.h"
+#include "levelset/tau_level.h"
+
+namespace isoatlas {
+
+/// Throws Error: usage, unsupported.
+void require_front(const VolumeInfo& info, const FrontOptions& options, const SurfaceOptions& surface);
+
+/// options: as require_front() wants them; places are those of the level's part of the volume.
+[[nodiscard]] FrontSurface extract_front_level(const TauLevel& level, const FrontOptions& options, const ExtractOptions& how,
+                                               const Context& context);
+
+}  // namespace isoatlas

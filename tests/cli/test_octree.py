@@ -1,0 +1,64 @@
+"""extract --octree: surfaces by blocks of cells, of volumes and of stores, with the topology of the exact one."""
+import harness
+from harness import CliTest
+
+
+class Octree(CliTest):
+    phantoms = {"demo.nrrd": ["demo", "--size", "48"]}
+
+    def extract(self, *options, file="demo.nrrd", output="front.ply"):
+        document = self.run_json("extract", file, "--tau", "90", *options, "-o", output)
+        self.assert_schema(document, "extract")
+        return document
+
+    def test_blocks_have_fewer_triangles_and_the_same_topology(self):
+        exact = self.extract()
+        self.assertIsNone(exact["octree"])
+        before = exact["triangles"]
+        for cells in (2, 4, 16):
+            front = self.extract("--octree", str(cells))
+            self.assertLess(front["triangles"], before)
+            before = front["triangles"]
+            self.assertEqual((front["objects"], front["contours"]), (exact["objects"], exact["contours"]))
+            self.assertEqual(front["octree"]["cells"], cells)
+            self.assertIsNone(front["octree"]["deviation"])
+            self.assertEqual([leaf["cells"] for leaf in front["octree"]["leaves"]], [2 ** i for i in range(cells.bit_length())])
+            checked = self.run_json("verify", "front.ply", "--against", "demo.nrrd", "--tau", "90")
+            self.assertTrue(all(check["holds"] for check in checked["checks"]), checked["checks"])
+
+    def test_a_limit_of_the_distance(self):
+        exact, free = self.extract(), self.extract("--octree", "16")
+        front = self.extract("--octree", "16", "--octree-error", "0.2")
+        self.assertLess(front["octree"]["deviation"], 0.2)
+        self.assertTrue(free["triangles"] < front["triangles"] < exact["triangles"])
+        text = self.run_ok("extract", "demo.nrrd", "--tau", "90", "--octree", "16", "--octree-error", "0.2", "-o", "front.ply").stdout
+        self.assertIn("points of the exact surface within 0.", text)
+        self.assertIn("with the same topology", text)
+
+    def test_a_store_gives_the_same_bytes(self):
+        self.run_ok("build", "demo.nrrd", "-o", "demo.atlas")
+        for options in ([], ["--octree-error", "0.3"]):
+            self.extract("--octree", "8", *options, output="volume.ply")
+            document = self.extract("--octree", "8", *options, file="demo.atlas", output="store.ply")
+            self.assertGreater(document["reads"]["bytes"], 0)
+            self.assertEqual((self.folder / "volume.ply").read_bytes(), (self.folder / "store.ply").read_bytes())
+
+    def test_objects_by_blocks(self):
+        document = self.run_json("extract", "demo.nrrd", "--top", "2", "--octree", "8", "-o", "objects.glb")
+        self.assert_schema(document, "extract")
+        exact = self.run_json("extract", "demo.nrrd", "--top", "2", "-o", "objects.glb")
+        self.assertEqual(len(document["surfaces"]), 2)
+        for front, whole in zip(document["surfaces"], exact["surfaces"]):
+            self.assertEqual(front["id"], whole["id"])
+            self.assertLess(front["triangles"], whole["triangles"])
+
+    def test_what_contradicts(self):
+        for options, said in ((["--octree", "7"], "2, 4, 8, 16 or 32"), (["--octree", "64"], "--octree"),
+                              (["--octree-error", "1"], "add --octree"), (["--octree", "8", "--simplify", "1"], "contradict"),
+                              (["--octree", "8", "--boundary", "open"], "contradict"), (["--octree", "8", "--coarser", "2"], "contradict")):
+            self.run_error(2, "extract", "demo.nrrd", "--tau", "90", *options, "-o", "front.glb", says=said)
+            self.assertFalse((self.folder / "front.glb").exists())
+
+
+if __name__ == "__main__":
+    harness.main()
