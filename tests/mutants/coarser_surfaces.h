@@ -5,6 +5,7 @@
 #include <string>
 
 #include "isoatlas/cluster_hierarchy.h"
+#include "isoatlas/octree_front.h"
 #include "oracle/coarse_surfaces.h"
 
 namespace mutants {
@@ -28,6 +29,10 @@ inline std::string broken_promise_of(const isoatlas::Volume& volume, double tau,
         const auto simplified = simplify_surface(exact, geometry, volume.info.extent, {.max_distance = distance});
         if (const std::string found = failure(simplified.surface, simplified.distance); !found.empty())
             return "simplified surface: " + found;
+    }
+    for (const int level : {1, 3}) {
+        const isoatlas::FrontSurface front = extract_front(volume, tau, {.max_level = level});
+        if (const std::string found = failure(front.surface, oracle::kInfinity); !found.empty()) return "octree front: " + found;
     }
     const auto hierarchy = make_clusters(exact, geometry, volume.info.extent, {.triangles = 12, .clusters = 5});
     for (const unsigned tenths : {10U, 8U}) {

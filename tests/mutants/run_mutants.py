@@ -14,7 +14,8 @@ import sys
 import tempfile
 
 # What the probe runs: rooms, and files of others.
-ROOMS = ("base", "geometry", "field", "critical", "tree", "zones", "analysis", "features", "persistence", "levelset", "mesh", "level_of_detail", "formats")
+ROOMS = ("base", "geometry", "field", "critical", "tree", "zones", "analysis", "features", "persistence", "levelset", "mesh", "octree_front",
+         "level_of_detail", "formats")
 FILES = ("server/request_head.cpp", "atlas/build_fingerprint.cpp")
 
 
@@ -120,8 +121,10 @@ def check(arguments, commands, mutant):
         target = overlay / mutant["file"]
         target.parent.mkdir(parents=True)
         target.write_text(mutated((src / mutant["file"]).read_text(), mutant))
-        objects = []
-        for entry, source in to_compile(commands, src, overlay, users(src, mutant["file"])):
+        objects, units = [], users(src, mutant["file"])
+        if not units:
+            return name, "NOT COMPILED", f"no file of ROOMS or FILES sees src/{mutant['file']}"
+        for entry, source in to_compile(commands, src, overlay, units):
             objects.append(pathlib.Path(folder) / f"{len(objects)}.o")
             command, directory = compile_command(entry, overlay, source, objects[-1])
             done = subprocess.run(command, cwd=directory, capture_output=True, text=True)
