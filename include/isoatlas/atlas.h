@@ -16,7 +16,6 @@
 #include "isoatlas/cut.h"
 #include "isoatlas/filter.h"
 #include "isoatlas/objects.h"
-#include "isoatlas/octree_front.h"
 #include "isoatlas/polarity.h"
 #include "isoatlas/samples_wanted.h"
 #include "isoatlas/simplify.h"
@@ -25,6 +24,9 @@
 #include "isoatlas/volume.h"
 
 namespace isoatlas {
+
+struct FrontOptions;  // isoatlas/octree_front.h
+struct FrontSurface;
 
 /// Totals of what the queries of an Atlas have read.
 struct AtlasReads {

@@ -20,7 +20,6 @@
 #include "field/negate.h"
 #include "isoatlas/environment.h"
 #include "levelset/cut_level.h"
-#include "mesh/count_cells.h"
 #include "mesh/extract_level.h"
 #include "octree_front/front_level.h"
 #include "store/container.h"
@@ -179,8 +178,7 @@ FrontSurface Atlas::extract_front(double tau, const FrontOptions& options, const
     require_front(info(), options, surface);
     const ExtractOptions own{.interpolant = interpolant(), .tunnel_height = tunnel_height(), .surface = surface};
     const auto extract = [&](const TauLevel& level, const ExtractOptions& how, std::int64_t* active) {
-        if (active != nullptr) *active = count_cells(level, surface.boundary, context);
-        return extract_front_level(level, options, how, context);
+        return extract_front_level(level, options, how, context, active);
     };
     if (is_one_object(surface) && std::isfinite(tau) && options.exact.empty() && !options.eye) {  // places would be those of the whole
         FrontSurface front;

@@ -1,6 +1,7 @@
 // HitMask: some of the hits of a level, one bit an edge of the grid, and the order among those of a row.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cstdint>

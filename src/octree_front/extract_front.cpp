@@ -9,6 +9,7 @@
 #include "field/slab_work.h"
 #include "isoatlas/environment.h"
 #include "isoatlas/error.h"
+#include "mesh/count_cells.h"
 #include "mesh/extract_level.h"
 #include "mesh/select_cells.h"
 #include "octree_front/front_level.h"
@@ -128,7 +129,8 @@ void require_front(const VolumeInfo& info, const FrontOptions& options, const Su
     for (const SampleBox& box : options.exact) require(is_inside(box, info.extent), "a region of interest", "samples of the volume");
 }
 
-FrontSurface extract_front_level(const TauLevel& level, const FrontOptions& options, const ExtractOptions& how, const Context& context) {
+FrontSurface extract_front_level(const TauLevel& level, const FrontOptions& options, const ExtractOptions& how, const Context& context,
+                                 std::int64_t* cells) {
     std::optional<Components> components;
     if (needs_representatives(how.surface))
         components = find_components(level, tunnel_height_of(how.interpolant, how.tunnel_height), context);
@@ -149,6 +151,10 @@ FrontSurface extract_front_level(const TauLevel& level, const FrontOptions& opti
     visit_grid(level.volume, [&]<class T>(const SampleGrid<T>& grid) {
         FrontMesh<T>(level, grid, *leaves, how, context, components ? &*components : nullptr).write(fans, surface);
     });
+    if (cells != nullptr) {
+        *cells = chosen.empty() ? count_cells(level, how.surface.boundary, context)
+                                : count_cells(level, how.surface.boundary, *components, chosen, context);
+    }
     if (!chosen.empty()) keep_contours(chosen, surface);
     if (how.surface.ids)
         write_ids(*components, context, surface);

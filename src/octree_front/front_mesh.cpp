@@ -80,22 +80,15 @@ template <class T>
 void FrontMesh<T>::mark(std::int64_t row, const EdgeHit& hit) {
     const std::int64_t y = hit.position[1], z = hit.position[2];
     if (!leaves_.owns(row, y, z)) return;  // the row that does marks it, too
-    mask_.add(domain_.row_number(y - 1, z - 1), hit.axis, hit.position[0]);
-    layout_[domain_.row_number(y - 1, z - 1)].hit_words |= std::uint64_t{1} << hit.position[0] / 64 % 64;
+    const std::int64_t number = domain_.row_number(y - 1, z - 1);
+    if (layout_[number].hit_words == 0) mask_.clear(number);  // few rows have hits: those of edges of blocks
+    mark_word(layout_[number].hit_words, hit.position[0] / 64);
+    mask_.add(number, hit.axis, hit.position[0]);
 }
 
 template <class T>
 void FrontMesh<T>::mark_hits(std::int64_t row, const RowFans& fans) {
-    const int top = leaves_.blocks().max_level();
-    const std::int64_t rows_y = leaves_.blocks().blocks(top)[1], width = std::int64_t{1} << top;
-    const std::int64_t first_y = row % rows_y * width, first_z = row / rows_y * width;
-    const std::int64_t end_y = std::min(first_y + width, domain_.rows_y()), end_z = std::min(first_z + width, domain_.rows_z());
-    const bool is_used = !leaves_.leaves(row).empty();
-    for (std::int64_t z = first_z; z < end_z; ++z) {
-        for (std::int64_t y = first_y; y < end_y; ++y) {
-            if (is_used) mask_.clear(domain_.row_number(y - 1, z - 1));
-        }
-    }
+    if (leaves_.leaves(row).empty()) return;
     for (const EdgeHit& hit : fans.hits) mark(row, hit);
     for (const EdgeHit& centre : fans.centre) {
         if (centre.axis >= 0) mark(row, centre);
@@ -107,10 +100,16 @@ void FrontMesh<T>::mark_hits(std::int64_t row, const RowFans& fans) {
             if ((edges >> edge & 1) != 0) mark(row, hit_on_edge(leaves_.blocks(), 0, leaf.block, edge));
         }
     }
-    for (std::int64_t z = first_z; is_used && z < end_z; ++z) {
+    const int top = leaves_.blocks().max_level();
+    const std::int64_t rows_y = leaves_.blocks().blocks(top)[1], width = std::int64_t{1} << top;
+    const std::int64_t first_y = row % rows_y * width, first_z = row / rows_y * width;
+    const std::int64_t end_y = std::min(first_y + width, domain_.rows_y()), end_z = std::min(first_z + width, domain_.rows_z());
+    for (std::int64_t z = first_z; z < end_z; ++z) {
         for (std::int64_t y = first_y; y < end_y; ++y) {
-            RowOffsets& place = layout_[domain_.row_number(y - 1, z - 1)];
-            const auto [x_hits, y_hits, z_hits] = mask_.number(domain_.row_number(y - 1, z - 1));
+            const std::int64_t number = domain_.row_number(y - 1, z - 1);
+            RowOffsets& place = layout_[number];
+            if (place.hit_words == 0) continue;
+            const auto [x_hits, y_hits, z_hits] = mask_.number(number);
             place.x_hits = x_hits, place.y_hits = y_hits, place.z_hits = z_hits;
         }
     }
@@ -183,7 +182,7 @@ void FrontMesh<T>::write_row(std::int64_t row, const RowFans& fans, Surface& sur
     std::size_t fan = 0, begin = 0;
     for (const FrontLeaf& leaf : leaves_.leaves(row)) {
         if (leaf.level > 0) {
-            write_fan(leaf, std::span(fans.hits).subspan(begin, fans.end[fan] - begin), fans.centre[fan], next_point, triangle, surface);
+            write_fan(std::span(fans.hits).subspan(begin, fans.end[fan] - begin), fans.centre[fan], next_point, triangle, surface);
             begin = fans.end[fan++];
             continue;
         }
@@ -198,7 +197,7 @@ void FrontMesh<T>::write_row(std::int64_t row, const RowFans& fans, Surface& sur
 }
 
 template <class T>
-void FrontMesh<T>::write_fan(const FrontLeaf& /*leaf*/, std::span<const EdgeHit> loop, const EdgeHit& centre, std::int64_t& next_point,
+void FrontMesh<T>::write_fan(std::span<const EdgeHit> loop, const EdgeHit& centre, std::int64_t& next_point,
                              std::array<std::int64_t, 3>*& triangle, Surface& surface) const {
     thread_local std::vector<std::int64_t> points;
     points.clear();

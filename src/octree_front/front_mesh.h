@@ -38,8 +38,8 @@ private:
     void mark_hits(std::int64_t row, const RowFans& fans);
     void lay_out();
     void write_row(std::int64_t row, const RowFans& fans, Surface& surface) const;
-    void write_fan(const FrontLeaf& leaf, std::span<const EdgeHit> loop, const EdgeHit& centre, std::int64_t& next_point,
-                   std::array<std::int64_t, 3>*& triangle, Surface& surface) const;
+    void write_fan(std::span<const EdgeHit> loop, const EdgeHit& centre, std::int64_t& next_point, std::array<std::int64_t, 3>*& triangle,
+                   Surface& surface) const;
     void mark(std::int64_t row, const EdgeHit& hit);
     [[nodiscard]] std::int64_t point_of(const EdgeHit& hit) const;
     [[nodiscard]] typename CellWriter<T>::State state_of(const FrontLeaf& leaf) const;

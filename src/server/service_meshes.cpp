@@ -5,6 +5,7 @@
 
 #include "formats/common/byte_writer.h"
 #include "isoatlas/isovalue.h"
+#include "isoatlas/octree_front.h"
 #include "isoatlas/polarity.h"
 #include "server/answers.h"
 #include "server/download.h"

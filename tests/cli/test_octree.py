@@ -52,11 +52,20 @@ class Octree(CliTest):
             self.assertEqual(front["id"], whole["id"])
             self.assertLess(front["triangles"], whole["triangles"])
 
+    def test_objects_of_both_sides(self):
+        document = self.run_json("extract", "demo.nrrd", "--polarity", "both", "--top", "3", "--octree", "8", "-o", "both.glb")
+        self.assert_schema(document, "extract")
+        alone = self.run_json("extract", "demo.nrrd", "--top", "1", "--octree", "8", "-o", "one.glb")
+        counts = [sum(leaf["count"] for leaf in one["octree"]["leaves"]) for one in (document, alone)]
+        self.assertGreater(counts[0], counts[1])
+
     def test_what_contradicts(self):
         for options, said in ((["--octree", "7"], "2, 4, 8, 16 or 32"), (["--octree", "64"], "--octree"),
                               (["--octree-error", "1"], "add --octree"), (["--octree", "8", "--simplify", "1"], "contradict"),
-                              (["--octree", "8", "--boundary", "open"], "contradict"), (["--octree", "8", "--coarser", "2"], "contradict")):
-            self.run_error(2, "extract", "demo.nrrd", "--tau", "90", *options, "-o", "front.glb", says=said)
+                              (["--octree", "8", "--boundary", "open"], "contradict"), (["--octree", "8", "--coarser", "2"], "contradict"),
+                              (["--octree", "8", "-o", "front.precomputed"], "does not apply to .precomputed")):
+            output = [] if "-o" in options else ["-o", "front.glb"]
+            self.run_error(2, "extract", "demo.nrrd", "--tau", "90", *options, *output, says=said)
             self.assertFalse((self.folder / "front.glb").exists())
 
 

@@ -12,6 +12,7 @@
 #include "atlas/tree_arrays.h"
 #include "isoatlas/cavities.h"
 #include "isoatlas/objects.h"
+#include "isoatlas/octree_front.h"
 #include "isoatlas/phantom.h"
 #include "oracle/difference.h"
 #include "oracle/stores.h"

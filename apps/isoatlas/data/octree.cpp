@@ -34,10 +34,16 @@ FrontOptions OctreeUse::options() const {
 }
 
 Surface OctreeUse::take(FrontSurface front) {
-    deviation = std::max(deviation, front.deviation);
-    leaves.resize(front.leaves.size());
-    for (std::size_t level = 0; level < front.leaves.size(); ++level) leaves[level] += front.leaves[level];
+    *this += {asked, front.deviation, std::move(front.leaves)};
     return std::move(front.surface);
+}
+
+OctreeUse& OctreeUse::operator+=(const OctreeUse& other) {
+    asked = other.asked;
+    deviation = std::max(deviation, other.deviation);
+    leaves.resize(std::max(leaves.size(), other.leaves.size()));
+    for (std::size_t level = 0; level < other.leaves.size(); ++level) leaves[level] += other.leaves[level];
+    return *this;
 }
 
 std::string octree_text(const OctreeUse& use) {

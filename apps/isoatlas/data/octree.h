@@ -19,12 +19,13 @@ struct OctreeUse {
     [[nodiscard]] FrontOptions options() const;
     /// Adds what was done.
     [[nodiscard]] Surface take(FrontSurface front);
+    OctreeUse& operator+=(const OctreeUse& other);
 };
 
 /// Throws Error{usage} for options that contradict --octree.
 void check_octree(const Arguments& arguments);
 
-/// "blocks of up to 8 cells: 402 of 8, 1233 of 4, 4603 of 1; points of the exact surface within 0.5 voxels, with the same topology"
+/// "blocks of cells: 402 of 8, 1233 of 4, 4603 of 1; points of the exact surface within 0.5 voxels, with the same topology"
 [[nodiscard]] std::string octree_text(const OctreeUse& use);
 [[nodiscard]] Json octree_json(const OctreeUse& use);
 

@@ -37,6 +37,7 @@ void check_precomputed(const Arguments& arguments) {
     if (arguments.space) option = "--space";
     if (arguments.for_print) option = "--for-print";
     if (arguments.simplification.is_asked_for()) option = "--simplify, --simplify-error or --triangles";
+    if (arguments.octree.is_asked_for()) option = "--octree";
     if (option == nullptr) return;
     throw Error(ErrorKind::usage,
                 {.file = arguments.output,

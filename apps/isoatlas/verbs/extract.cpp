@@ -130,6 +130,7 @@ struct Written {
     std::vector<Part> parts{};
     std::optional<Printing> print{};
     std::optional<Simplification> simplification{};
+    std::optional<OctreeUse> octree{};
     CoarserVersions coarser{};
     std::vector<PrecomputedLevel> levels{};
 };
@@ -166,7 +167,7 @@ Json to_json(const Arguments& arguments, Source& source, const Written& written)
     json["warnings"] = written.warnings;
     json["notes"] = written.notes;
     json["simplification"] = written.simplification ? simplification_json(*written.simplification) : Json(nullptr);
-    json["octree"] = arguments.octree.is_asked_for() ? octree_json(source.octree()) : Json(nullptr);
+    json["octree"] = written.octree ? octree_json(*written.octree) : Json(nullptr);
     json["coarser"] = coarser_json(written.coarser);
     json["levels"] = levels_json(written.levels);
     json["print"] = written.print ? printing_json(*written.print) : Json(nullptr);
@@ -202,7 +203,7 @@ void print_text(const Arguments& arguments, Terminal& terminal, Source& source, 
                            << connectivity << '\n';
     }
     if (written.simplification) terminal.out() << simplification_text(*written.simplification) << '\n';
-    if (arguments.octree.is_asked_for()) terminal.out() << octree_text(source.octree()) << '\n';
+    if (written.octree) terminal.out() << octree_text(*written.octree) << '\n';
     if (written.coarser.most > 0) terminal.out() << coarser_text(written.coarser) << '\n';
     if (!written.levels.empty()) terminal.out() << levels_text(written.levels) << '\n';
     if (written.print) terminal.out() << printing_text(*written.print) << '\n';
@@ -305,6 +306,11 @@ int run_extract(const Arguments& arguments, Terminal& terminal) {
     sides.release_trees();
     Source& first = chosen.empty() ? sides.main() : sides.source(chosen[0]);
     Written written = is_one_surface(arguments, chosen) ? write_one(arguments, first, chosen) : write_several(arguments, sides, chosen);
+    for (const Polarity polarity : {Polarity::high, Polarity::low}) {
+        if (!arguments.octree.is_asked_for() || !sides.is_open(polarity)) continue;
+        if (!written.octree) written.octree.emplace();
+        *written.octree += sides.source(polarity).octree();
+    }
     if (arguments.space && space_in_file(arguments.output, written.space) == "glTF")
         written.warnings.emplace_back("--space does not apply to .glb, which has metres and y up");
     if (written.print && !thin_walls_text(*written.print).empty()) written.warnings.push_back(thin_walls_text(*written.print));
