@@ -39,7 +39,6 @@ Surface OctreeUse::take(FrontSurface front) {
 }
 
 OctreeUse& OctreeUse::operator+=(const OctreeUse& other) {
-    asked = other.asked;
     deviation = std::max(deviation, other.deviation);
     leaves.resize(std::max(leaves.size(), other.leaves.size()));
     for (std::size_t level = 0; level < other.leaves.size(); ++level) leaves[level] += other.leaves[level];

@@ -308,7 +308,7 @@ int run_extract(const Arguments& arguments, Terminal& terminal) {
     Written written = is_one_surface(arguments, chosen) ? write_one(arguments, first, chosen) : write_several(arguments, sides, chosen);
     for (const Polarity polarity : {Polarity::high, Polarity::low}) {
         if (!arguments.octree.is_asked_for() || !sides.is_open(polarity)) continue;
-        if (!written.octree) written.octree.emplace();
+        if (!written.octree) written.octree.emplace(OctreeUse{.asked = arguments.octree});
         *written.octree += sides.source(polarity).octree();
     }
     if (arguments.space && space_in_file(arguments.output, written.space) == "glTF")
