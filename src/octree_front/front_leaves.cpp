@@ -13,9 +13,7 @@ void FrontLeaves::for_children(const FrontLeaf& parent, const Add& add) const {
     const Index3& size = blocks_.blocks(parent.level - 1);
     const std::array<std::uint8_t, 8> patterns = blocks_.child_patterns(parent.level, parent.block);
     for (int child = 0; child < 8; ++child) {
-        const FrontLeaf leaf{
-            {2 * parent.block[0] + (child & 1), 2 * parent.block[1] + (child >> 1 & 1), 2 * parent.block[2] + (child >> 2)},
-            parent.level - 1};
+        const FrontLeaf leaf = parent.child(child);
         if (leaf.block[0] < size[0] && leaf.block[1] < size[1] && leaf.block[2] < size[2]) add(leaf, patterns[child]);
     }
 }

@@ -18,6 +18,10 @@ struct FrontLeaf {
     Index3 block;
     int level;
     [[nodiscard]] std::int64_t width() const { return std::int64_t{1} << level; }
+    /// 0 .. 7, x first.
+    [[nodiscard]] FrontLeaf child(int i) const {
+        return {{2 * block[0] + (i & 1), 2 * block[1] + (i >> 1 & 1), 2 * block[2] + (i >> 2)}, level - 1};
+    }
     /// Of its first corner (octree_front/coalescible_blocks.h).
     [[nodiscard]] Index3 position() const { return {block[0] << level, block[1] << level, block[2] << level}; }
 };

@@ -48,9 +48,7 @@ void add_segments(const FrontLeaves& leaves, const FrontLeaf& leaf, int face, st
             leaves.is_divided(part.level, across)) {
             for (int child = 0; child < 8; ++child) {
                 if ((child >> normal & 1) != side) continue;
-                pending.push_back(
-                    {{2 * part.block[0] + (child & 1), 2 * part.block[1] + (child >> 1 & 1), 2 * part.block[2] + (child >> 2)},
-                     part.level - 1});
+                pending.push_back(part.child(child));
             }
             continue;
         }
