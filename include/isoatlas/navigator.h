@@ -44,7 +44,7 @@ public:
     /// What the last move changed, by the trees: how the objects of the higher isovalue lie in those of the lower one. Nothing changes in a
     /// first move. Cost: the first call reads the trees; O((1 + objects at both) log events).
     [[nodiscard]] ObjectChanges changes() const;
-    /// Cost of the last move.
+    /// Cost of the last move. The first call after a move counts the active cells: O(voxels / 64) at most.
     [[nodiscard]] const QueryCost& cost() const;
     /// Number of bricks that the last move classified again.
     [[nodiscard]] std::int64_t changed_bricks() const;

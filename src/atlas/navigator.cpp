@@ -19,6 +19,7 @@ struct Navigator::Data {
     std::optional<double> tau{}, before{};
     std::int64_t changed_bricks = 0;
     QueryCost cost{};
+    bool active_counted = true;  ///< has `cost` the active cells of the surface?
 
     Data(const Atlas& from, const SurfaceOptions& how)
         : atlas(from), options{.interpolant = from.interpolant(), .tunnel_height = from.tunnel_height(), .surface = how} {}
@@ -28,7 +29,7 @@ struct Navigator::Data {
 
     void move(double to, const Context& context) {
         before = std::exchange(tau, std::nullopt);
-        cost = {};
+        cost = {}, active_counted = true;
         if (shows_one()) {
             surface = atlas.extract(to, options.surface, context, &cost);
             changed_bricks = 0;
@@ -46,9 +47,22 @@ struct Navigator::Data {
         changed_bricks = samples.reclassify(next, to, context, spent);
         if (needs_representatives(options.surface)) samples.add_extremes(next.level->bricks, context);
         const auto sample = [&](std::int64_t voxel) { return samples.sample(voxel, spent); };
-        extract_level(TauLevel{samples.view(), to, next.level->high, &next.level->bricks, {}, sample}, options, context, surface, &active);
+        const bool counts = selects_components(options.surface);
+        const TauLevel at{samples.view(), to, next.level->high, &next.level->bricks, {}, sample};
+        extract_level(at, options, context, surface, counts ? &active : nullptr);
         level = std::move(next);
+        active_counted = counts;
         AtlasAccess::count(atlas, spent, active, &cost);
+    }
+
+    /// Active cells of a whole surface are counted when somebody asks: a tenth of the time of a small step.
+    const QueryCost& whole_cost() {
+        if (!active_counted) {
+            const TauLevel at{AtlasAccess::samples(atlas).view(), *tau, level.level->high, &level.level->bricks};
+            cost.cells_active = count_cells(at, options.surface.boundary, {});
+            active_counted = true;
+        }
+        return cost;
     }
 
     /// The shown object among the active ones; nullopt when its id is not a representative.
@@ -118,7 +132,7 @@ ObjectChanges Navigator::changes() const {
     return data_->atlas.active_index().changes(*data_->before, *data_->tau);
 }
 
-const QueryCost& Navigator::cost() const { return data_->cost; }
+const QueryCost& Navigator::cost() const { return data_->whole_cost(); }
 std::int64_t Navigator::changed_bricks() const { return data_->changed_bricks; }
 
 }  // namespace isoatlas

@@ -225,6 +225,7 @@ private:
     }
 
     std::int64_t classify_anew(KeptLevel& kept, const Threshold<T>& threshold, const Context& context, LevelQuery& query) {
+        kept.level.reset();  // its memory is used again
         Classified all = classify_part(BrickPart(grid_), threshold, context, query);
         kept.beside = BrickFlags(all.level.bricks.classes.size(), 0);
         for (const BrickId b : all.needed) kept.beside[b] = all.level.bricks.classes[b] != BrickClass::divided;

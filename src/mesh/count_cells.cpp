@@ -3,6 +3,7 @@
 #include <atomic>
 
 #include "field/slab_work.h"
+#include "mesh/extract_level.h"
 #include "mesh/layout.h"
 
 namespace isoatlas {
@@ -12,11 +13,18 @@ namespace {
 template <class Count>
 std::int64_t sum_rows(const MeshDomain& domain, const Context& context, const Count& count) {
     if (domain.is_empty()) return 0;
-    Extent rows = domain.high.extent();
-    rows.size = {rows.size[0], domain.y_end - domain.y_begin, domain.is_2d() ? 1 : domain.z_end - domain.z_begin};
+    const bool flat = domain.is_2d();
+    const std::int64_t rows_y = domain.y_end - domain.y_begin, rows_z = domain.z_end - domain.z_begin;
+    const Slices slices = flat ? Slices{rows_y, domain.high.extent().size[0]} : Slices{rows_z, domain.high.extent().slice()};
     std::atomic<std::int64_t> sum = 0;
-    for_each_row(context, kSelectPhases["cells"], rows,
-                 [&](std::int64_t y, std::int64_t z) { sum += count(domain.y_begin + y, domain.z_begin + z); });
+    for_each_slab(context, kSelectPhases["cells"], slices, [&](const Slab& slab) {
+        std::int64_t own = 0;
+        for (std::int64_t i = slab.z_begin; i < slab.z_end; ++i) {
+            if (flat) own += count(domain.y_begin + i, domain.z_begin);
+            for (std::int64_t y = 0; !flat && y < rows_y; ++y) own += count(domain.y_begin + y, domain.z_begin + i);
+        }
+        sum += own;
+    });
     return sum;
 }
 
@@ -62,7 +70,8 @@ std::int64_t count_row(const MeshDomain& domain, const CellRow<kRows>& rows, Cor
 
 std::int64_t count_cells(const TauLevel& level, Boundary boundary, const Context& context) {
     const MeshDomain domain(level.high, boundary);
-    return sum_rows(domain, context, [&](std::int64_t y, std::int64_t z) {
+    return sum_rows(domain, context, [&](std::int64_t y, std::int64_t z) -> std::int64_t {
+        if (level.high.candidates(y, z).empty()) return 0;
         if (domain.is_2d()) return count_active_cells(square_row(level.high, y), domain.cells);
         return count_active_cells(cell_row(level.high, y, z), domain.cells);
     });

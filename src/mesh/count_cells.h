@@ -1,4 +1,4 @@
-// Number of active cells of a surface.
+// Number of active cells of some contours.
 #pragma once
 
 #include "isoatlas/surface.h"
@@ -6,9 +6,7 @@
 
 namespace isoatlas {
 
-/// All active cells; with components, those that one of the chosen contours passes through.
-/// Cost: O(voxels / 64), and O(active cells) for chosen contours.
-[[nodiscard]] std::int64_t count_cells(const TauLevel& level, Boundary boundary, const Context& context);
+/// Those that one of the chosen contours passes through (all: mesh/extract_level.h). Cost: O(voxels / 64 + active cells).
 [[nodiscard]] std::int64_t count_cells(const TauLevel& level, Boundary boundary, const Components& components,
                                        IdSpan<ContourNumber, const std::uint8_t> chosen, const Context& context);
 

@@ -21,5 +21,7 @@ void describe(Surface& surface, const VolumeInfo& info, double tau, Interpolant 
 /// Into an existing surface, whose memory is used again. cells: receives the number of active cells, unless it is null.
 void extract_level(const TauLevel& level, const ExtractOptions& options, const Context& context, Surface& surface,
                    std::int64_t* cells = nullptr);
+/// All active cells. Cost: O(voxels / 64).
+[[nodiscard]] std::int64_t count_cells(const TauLevel& level, Boundary boundary, const Context& context);
 
 }  // namespace isoatlas

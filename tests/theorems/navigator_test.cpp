@@ -40,6 +40,10 @@ RC_GTEST_FIXTURE_PROP(Navigation, ShowsWhatAFreshQueryShows, ()) {
         if (*rc::gen::inRange(0, 10) == 0) to = *rc::gen::element(low - 1, low, high, high + 1, -1e300, 1e300);
         if (*rc::gen::inRange(0, 6) == 0) atlas.clear_cache();
         RC_ASSERT(same(navigator.go_to(to, arbitrary_context()), isoatlas::extract(volume, to, options)));
+        if (*rc::gen::inRange(0, 2) == 0) continue;  // the cost is counted when it is asked for
+        isoatlas::QueryCost fresh;
+        (void)atlas.extract(to, options.surface, {}, &fresh);
+        RC_ASSERT(navigator.cost().cells_active == fresh.cells_active);
     }
 }
 

@@ -2,7 +2,9 @@
 #include "base/big_vector.h"
 
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 
+#include <algorithm>
 #include <fstream>
 #include <numeric>
 #include <string>
@@ -51,6 +53,31 @@ TEST(BigVector, SmallOnesUseTheMemoryOfALargeOne) {
     EXPECT_LT(resident() - before, std::int64_t{1} << 20) << "memory that was free was not used";
     for (int i = 0; i < 16; ++i) EXPECT_EQ(std::accumulate(parts[i].begin(), parts[i].end(), std::int64_t{0}), i * std::ssize(parts[i]));
     parts.clear();
+    trim_memory_pool();
+}
+
+/// Pages that the system has given to this process.
+long faults() {
+    rusage usage{};
+    getrusage(RUSAGE_SELF, &usage);
+    return usage.ru_minflt;
+}
+
+// Two arrays of the same sizes, a third that is another one each time, and a result whose size changes, as steps of a Navigator make them.
+TEST(BigVector, AQueryThatIsAskedAgainTakesNoFreshMemory) {
+    trim_memory_pool();
+    BigVector<char> result;
+    long before = 0;
+    for (std::size_t round = 0; round < 400; ++round) {
+        if (round == 100) before = faults();
+        const BigVector<char> bits(900'000, 1), rows(1'900'000, 1);
+        resize_for_overwrite(result, 100'000 + round * 7919 % 200'000);
+        std::fill(result.begin(), result.end(), 1);
+        const BigVector<char> again(900'000 + round % 3 * 70'000, 1);
+        ASSERT_EQ(std::accumulate(again.begin(), again.end(), std::size_t{0}), again.size());
+    }
+    EXPECT_LT(faults() - before, 300) << "300 queries";
+    release(result);
     trim_memory_pool();
 }
 
