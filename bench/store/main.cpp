@@ -3,6 +3,7 @@
 //   bench_store build VOLUME STORE [--cache FOLDER] [--data FOLDER] [--threads N] [--repeats N] [--analysis]   VOLUME: as in bench_engine
 //   bench_store surface STORE TAU [--threads N] [--repeats N]         the whole isosurface: warm, again, cold
 //   bench_store steps STORE TAU [--threads N] [--repeats N]           steps of a Navigator by 0.5 % of the range, from TAU to its middle
+//   bench_store fronts STORE TAU [--threads N] [--repeats N]          octree fronts, from TAU on by the same steps
 //   bench_store object STORE TAU [--threads N] [--repeats N] [--voxels N]   one object of about that many voxels (1000)
 //   bench_store check STORE TAU VOLUME [--cache FOLDER] [--data FOLDER]   is the surface that of the volume, byte for byte?
 //
@@ -11,6 +12,7 @@
 //   again  the same query once more                          cold   opening and first query, the file's pages dropped before
 //   copy   as many samples as that query needs, uncoded, from pages of the store that the system holds into new memory, on one thread:
 //          what is left of reading if decoding and checking cost nothing
+//   exact  the whole surface, samples there                  front  the same as an octree front, of a query without a step before
 //   step   from the isovalue before to this one              fresh  the query at this one of a store that holds no bricks
 // compare_vtk.py runs all this beside VTK's Flying Edges on the same volume.
 #include <isoatlas/isoatlas.h>
@@ -189,6 +191,31 @@ ordered_json measure_steps(const Arguments& arguments) {
     return result;
 }
 
+/// Steps as above, there and back, so that the samples of all are present from the first round on.
+ordered_json measure_fronts(const Arguments& arguments) {
+    const isoatlas::SurfaceOptions options = without_ids();
+    const isoatlas::FrontOptions front{.max_level = 4};
+    const Atlas atlas(arguments.word(1));
+    isoatlas::Navigator navigator(atlas, options);
+    const std::array<double, 2> range = atlas.range();
+    const double step = (arguments.tau() < 0.5 * (range[0] + range[1]) ? 0.005 : -0.005) * (range[1] - range[0]);
+    ordered_json result;
+    for (int i = -4; i < arguments.repeats; ++i) {
+        const double tau = arguments.tau() + step * std::abs(i % 4);
+        isoatlas::Surface surface;
+        isoatlas::FrontSurface coarse, stepped;
+        const double exact = seconds_of([&] { surface = atlas.extract(tau, options, arguments.context); });
+        const double fresh = seconds_of([&] { coarse = atlas.extract_front(tau, front, options, arguments.context); });
+        const double by_step = seconds_of([&] { stepped = navigator.extract_front(tau, front, arguments.context); });
+        if (stepped.surface.triangles != coarse.surface.triangles || stepped.surface.points != coarse.surface.points)
+            throw std::runtime_error("a front is another one after a step");
+        if (i < 0) continue;
+        result["exact"].push_back(exact), result["front"].push_back(fresh), result["step"].push_back(by_step);
+        result["exact_triangles"].push_back(surface.triangles.size()), result["triangles"].push_back(coarse.surface.triangles.size());
+    }
+    return result;
+}
+
 ordered_json object(const Arguments& arguments) {
     const isoatlas::Cut cut = Atlas(arguments.word(1)).cut(arguments.tau(), {}, arguments.context);
     if (cut.objects.empty()) throw std::runtime_error("there is no object at this isovalue");
@@ -221,6 +248,7 @@ ordered_json run(const Arguments& arguments) {
     if (verb == "build") return build(arguments);
     if (verb == "surface") return surface(arguments);
     if (verb == "steps") return measure_steps(arguments);
+    if (verb == "fronts") return measure_fronts(arguments);
     if (verb == "object") return object(arguments);
     if (verb == "check") return check(arguments);
     throw std::runtime_error("unknown verb " + verb);

@@ -12,6 +12,9 @@
 
 namespace isoatlas {
 
+struct FrontOptions;  // isoatlas/octree_front.h
+struct FrontSurface;
+
 /// An isovalue of a store and its surface. A move costs less than a new query: samples that are present stay, only bricks that have a
 /// sample between the two isovalues are classified again, and the memory of the surface is used again. One thread at a time; several
 /// Navigators may use one Atlas at once.
@@ -34,6 +37,10 @@ public:
     const Surface& step(double delta, const Context& context = {});
     /// Shows some objects only (any voxel index in each, as in SurfaceOptions; none: all) at an isovalue, and from then on.
     const Surface& show(std::vector<std::int64_t> objects, double tau, const Context& context = {});
+
+    /// Moves to an isovalue, and makes its octree front in place of the exact surface: surface() is empty until the next move. The same as
+    /// Atlas::extract_front(tau, front, options), and throws what that throws.
+    [[nodiscard]] FrontSurface extract_front(double tau, const FrontOptions& front, const Context& context = {});
 
     /// Moves to the next isovalue at which something happens: with one object shown by its id (its highest voxel), to this object, else
     /// anywhere. Downwards that is the value of the next event, where it has just happened; upwards that of the event before the last one,

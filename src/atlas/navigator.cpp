@@ -8,6 +8,7 @@
 #include "bricks/stored_samples.h"
 #include "isoatlas/environment.h"
 #include "mesh/extract_level.h"
+#include "octree_front/front_level.h"
 
 namespace isoatlas {
 
@@ -27,19 +28,41 @@ struct Navigator::Data {
     /// A single object is extracted from the bricks around it, independent of the previous state.
     [[nodiscard]] bool shows_one() const { return options.surface.objects.size() == 1 && options.surface.contours.empty(); }
 
-    void move(double to, const Context& context) {
+    void begin_move() {
         before = std::exchange(tau, std::nullopt);
         cost = {}, active_counted = true;
+    }
+
+    void move(double to, const Context& context) {
+        begin_move();
         if (shows_one()) {
             surface = atlas.extract(to, options.surface, context, &cost);
             changed_bricks = 0;
         } else {
-            extract_all(to, context);
+            at_level(to, context, [&](const TauLevel& at, std::int64_t* active) { extract_level(at, options, context, surface, active); });
         }
         tau = to;
     }
 
-    void extract_all(double to, const Context& context) {
+    FrontSurface move_front(double to, const FrontOptions& front, const Context& context) {
+        require_front(atlas.info(), front, options.surface);
+        begin_move();
+        surface = {};
+        std::optional<FrontSurface> made;
+        if (shows_one()) {
+            made = atlas.extract_front(to, front, options.surface, context, &cost);
+            changed_bricks = 0;
+        } else {
+            at_level(to, context,
+                     [&](const TauLevel& at, std::int64_t* active) { made = extract_front_level(at, front, options, context, active); });
+        }
+        tau = to;
+        return std::move(*made);
+    }
+
+    /// Runs extract(level, active): sets the number of active cells; may be null.
+    template <class Extract>
+    void at_level(double to, const Context& context, const Extract& extract) {
         LevelQuery spent;
         std::int64_t active = 0;
         StoredSamples& samples = AtlasAccess::samples(atlas);
@@ -48,8 +71,7 @@ struct Navigator::Data {
         if (needs_representatives(options.surface)) samples.add_extremes(next.level->bricks, context);
         const auto sample = [&](std::int64_t voxel) { return samples.sample(voxel, spent); };
         const bool counts = selects_components(options.surface);
-        const TauLevel at{samples.view(), to, next.level->high, &next.level->bricks, {}, sample};
-        extract_level(at, options, context, surface, counts ? &active : nullptr);
+        extract(TauLevel{samples.view(), to, next.level->high, &next.level->bricks, {}, sample}, counts ? &active : nullptr);
         level = std::move(next);
         active_counted = counts;
         AtlasAccess::count(atlas, spent, active, &cost);
@@ -110,6 +132,11 @@ const Surface& Navigator::show(std::vector<std::int64_t> objects, double tau, co
     const EnvironmentScope scope(context);
     data_->options.surface.objects = std::move(objects);
     return go_to(tau, context);
+}
+
+FrontSurface Navigator::extract_front(double tau, const FrontOptions& front, const Context& context) {
+    const EnvironmentScope scope(context);
+    return data_->move_front(tau, front, context);
 }
 
 bool Navigator::to_event_below(const Context& context) {

@@ -9,7 +9,6 @@
 #include <map>
 #include <mutex>
 #include <new>
-#include <unordered_map>
 
 #include "base/memory_limit.h"
 #include "base/pages.h"
@@ -18,6 +17,8 @@ namespace isoatlas {
 namespace {
 
 constexpr std::size_t kSmall = std::size_t{1} << 16;  // below: the ordinary heap
+constexpr std::size_t kMostBeyond = std::size_t{4} << 20;
+constexpr int kSteady = 200;  // arrays; after its peak an analysis takes fewer
 
 /// What an array takes: whole huge pages where it may have some.
 std::size_t taken_by(std::size_t bytes) { return rounded_up(bytes, bytes < kHugePage ? kPage : kHugePage); }
@@ -44,80 +45,36 @@ void replace_memory(char* at, std::size_t size) {
     if (mmap(at, size, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_FIXED, -1, 0) == MAP_FAILED) throw std::bad_alloc();
 }
 
-/// Memory in use and memory kept for reuse. Their sum never exceeds the peak of memory in use: keeping costs nothing.
-///
-/// A small array, below a huge page, leaves its memory as it is to one that needs at least half of it: the arrays of a query that is asked
-/// again and again find theirs without a call of the system. Pieces of large ones are divided and joined.
+/// Memory in use and memory kept for reuse. Their sum never exceeds the peak of memory in use: keeping costs nothing. Where many arrays
+/// came without a new peak, as in queries that are asked again and again, it may exceed it a little, so that pieces that do not fit
+/// together are not returned and fetched each time.
 class Pool {
 public:
     char* take(std::size_t size) {
         const std::lock_guard lock(mutex_);
-        if (size < kHugePage) return take_small(size);
         char* memory = reuse(size);
-        if (memory == nullptr && join_small()) memory = reuse(size);
         if (memory == nullptr) {
-            memory = map_more(size);
-            move_pages(memory, size);
+            most_used_ = std::max(most_used_, used_ + size);
+            memory = map_memory(size);
+            if (memory == nullptr) throw std::bad_alloc();
+            if (size >= kHugePage) move_pages(memory, size);
         }
-        return count_in(memory, size);
+        used_ += size;
+        since_peak_ = used_ >= most_used_ ? 0 : std::min(since_peak_, kSteady) + 1;
+        most_used_ = std::max(most_used_, used_);
+        const std::size_t most = most_used_ + (since_peak_ > kSteady ? std::min(most_used_ / 4, kMostBeyond) : 0);
+        while (!free_.empty() && used_ + kept_ > most) drop_one();
+        return memory;
     }
 
     void put(char* memory, std::size_t size) {
         const std::lock_guard lock(mutex_);
-        if (size < kHugePage) {
-            const auto lent = lent_.find(memory);
-            size = lent->second;
-            lent_.erase(lent);
-        }
         used_ -= size;
         if (process_is_limited()) {
             munmap(memory, size);
             return;
         }
         kept_ += size;
-        if (size < kHugePage)
-            small_.emplace(size, memory);
-        else
-            join(memory, size);
-    }
-
-    void give_back() {
-        const std::lock_guard lock(mutex_);
-        while (kept_ > 0) drop_one();
-        most_used_ = used_;
-    }
-
-private:
-    char* take_small(std::size_t size) {
-        char* memory = nullptr;
-        if (const auto found = small_.lower_bound(size); found != small_.end() && found->first <= 2 * size) {
-            size = found->first, memory = found->second;
-            kept_ -= size;
-            small_.erase(found);
-        } else {
-            memory = reuse(size);
-            if (memory == nullptr) memory = map_more(size);
-        }
-        lent_.emplace(memory, size);
-        return count_in(memory, size);
-    }
-
-    /// Memory that is not there yet.
-    char* map_more(std::size_t size) {
-        most_used_ = std::max(most_used_, used_ + size);
-        char* const memory = map_memory(size);
-        if (memory == nullptr) throw std::bad_alloc();
-        return memory;
-    }
-
-    char* count_in(char* memory, std::size_t size) {
-        used_ += size;
-        most_used_ = std::max(most_used_, used_);
-        while (kept_ > 0 && used_ + kept_ > most_used_) drop_one();
-        return memory;
-    }
-
-    void join(char* memory, std::size_t size) {
         auto piece = free_.emplace(memory, size).first;
         if (const auto next = std::next(piece); next != free_.end() && memory + size == next->first) {
             piece->second += next->second;
@@ -130,18 +87,13 @@ private:
         free_.erase(piece);
     }
 
-    /// Small pieces become parts of the large ones that they were cut from; the others are returned to the system.
-    bool join_small() {
-        if (small_.empty()) return false;
-        for (const auto& [size, piece] : small_) join(piece, size);
-        small_.clear();
-        for (auto piece = free_.begin(); piece != free_.end();) {
-            const auto here = piece++;
-            if (here->second < kHugePage) drop(here);
-        }
-        return true;
+    void give_back() {
+        const std::lock_guard lock(mutex_);
+        while (!free_.empty()) drop_one();
+        most_used_ = used_, since_peak_ = 0;
     }
 
+private:
     /// Cuts size from the smallest free piece that holds it: small ones from its end, so that the rest stays aligned.
     char* reuse(std::size_t size) {
         auto best = free_.end();
@@ -176,29 +128,17 @@ private:
         }
     }
 
-    /// Small ones first: to have one again costs little.
     void drop_one() {
-        if (!small_.empty()) {
-            const auto [size, memory] = *std::prev(small_.end());
-            munmap(memory, size);
-            kept_ -= size;
-            small_.erase(std::prev(small_.end()));
-            return;
-        }
-        drop(std::prev(free_.end()));
-    }
-
-    void drop(std::map<char*, std::size_t>::iterator piece) {
+        const auto piece = std::prev(free_.end());
         munmap(piece->first, piece->second);
         kept_ -= piece->second;
         free_.erase(piece);
     }
 
     std::mutex mutex_;
-    std::map<char*, std::size_t> free_;            // large pieces by address; neighbours are joined
-    std::multimap<std::size_t, char*> small_;      // small ones by size
-    std::unordered_map<char*, std::size_t> lent_;  // sizes of the small ones in use
+    std::map<char*, std::size_t> free_;  // by address; neighbours are joined
     std::size_t used_ = 0, kept_ = 0, most_used_ = 0;
+    int since_peak_ = 0;  ///< arrays that came since then
 };
 
 Pool& pool() {

@@ -42,8 +42,9 @@ private:
     std::uint64_t outside_ = 0;
 };
 
-/// Bits 0, 2, 4, ... of a word, as its lower half.
-[[nodiscard]] constexpr std::uint64_t even_bits(std::uint64_t word) {
+/// Bits 0, 2, 4, ... of a word, as its lower half. Word: 64 bits, or a vector of words.
+template <class Word>
+[[nodiscard, gnu::always_inline]] constexpr Word even_bits(Word word) {
     word &= 0x5555555555555555;
     word = (word | word >> 1) & 0x3333333333333333;
     word = (word | word >> 2) & 0x0f0f0f0f0f0f0f0f;

@@ -1,8 +1,12 @@
+#pragma GCC diagnostic ignored "-Wpsabi"  // vectors are returned by functions that are always inlined
+
 #include "octree_front/coalescible_blocks.h"
 
 #include <algorithm>
+#include <cstring>
 
 #include "base/phase.h"
+#include "base/target_clones.h"
 #include "field/cell.h"
 #include "field/slab_work.h"
 #include "octree_front/front_phases.h"
@@ -14,27 +18,37 @@ constexpr std::uint64_t kAll = ~std::uint64_t{0};
 
 Index3 halved(const Index3& blocks) { return {(blocks[0] + 1) / 2, (blocks[1] + 1) / 2, (blocks[2] + 1) / 2}; }
 
+/// Words of 64 bits, and several of them side by side: what is computed for one is for all.
+constexpr int kLanes = 8;
+typedef std::uint64_t Lanes __attribute__((vector_size(8 * kLanes)));  // NOLINT(modernize-use-using): an alias would lose the attribute
+
 /// Bit i: the corners of cell i are ambiguous.
-[[gnu::always_inline]] inline std::uint64_t ambiguous_corners(const std::array<std::uint64_t, 8>& corner) {
-    std::uint64_t bad = 0;
+template <class Word>
+[[gnu::always_inline]] inline Word ambiguous_corners(const std::array<Word, 8>& corner) {
+    Word bad{};
 #pragma GCC unroll 6
     for (std::size_t f = 0; f < 6; ++f) {
         const std::array<int, 4>& face = kFaceCorners[f];
-        const std::uint64_t a = corner[face[0]], b = corner[face[1]], c = corner[face[2]], d = corner[face[3]];
+        const Word &a = corner[face[0]], &b = corner[face[1]], &c = corner[face[2]], &d = corner[face[3]];
         bad |= (a ^ b) & ~((a ^ c) | (b ^ d));
     }
-    const auto is_alone = [&](int k) { return (corner[k] ^ corner[k ^ 1]) & (corner[k] ^ corner[k ^ 2]) & (corner[k] ^ corner[k ^ 4]); };
 #pragma GCC unroll 4
-    for (int k = 0; k < 4; ++k) bad |= is_alone(k) & is_alone(7 - k);
+    for (int k = 0; k < 4; ++k) {
+        const Word &one = corner[k], &other = corner[7 - k];
+        bad |= (one ^ corner[k ^ 1]) & (one ^ corner[k ^ 2]) & (one ^ corner[k ^ 4]) &  // both are alone
+               (other ^ corner[(7 - k) ^ 1]) & (other ^ corner[(7 - k) ^ 2]) & (other ^ corner[(7 - k) ^ 4]);
+    }
     return bad;
 }
 
 /// Bit i: a vertex of block i that is no corner is not regular.
-[[gnu::always_inline]] inline std::uint64_t irregular_vertices(const std::array<std::uint64_t, 27>& vertex) {
-    std::uint64_t bad = 0;
+template <class Word>
+[[gnu::always_inline]] inline Word irregular_vertices(const std::array<Word, 27>& vertex) {
+    Word bad{};
 #pragma GCC unroll 27
     for (int at = 0; at < 27; ++at) {
-        std::uint64_t differs = at % 3 == 1 || at / 3 % 3 == 1 || at / 9 == 1 ? kAll : 0;  // none at a corner
+        if (at % 3 != 1 && at / 3 % 3 != 1 && at / 9 != 1) continue;  // a corner
+        Word differs = ~Word{};
         if (at % 3 == 1) differs &= (vertex[at] ^ vertex[at - 1]) & (vertex[at] ^ vertex[at + 1]);
         if (at / 3 % 3 == 1) differs &= (vertex[at] ^ vertex[at - 3]) & (vertex[at] ^ vertex[at + 3]);
         if (at / 9 == 1) differs &= (vertex[at] ^ vertex[at - 9]) & (vertex[at] ^ vertex[at + 9]);
@@ -44,41 +58,88 @@ Index3 halved(const Index3& blocks) { return {(blocks[0] + 1) / 2, (blocks[1] + 
 }
 
 /// Rows of vertices, y first: 128 of each, and the one behind them.
-using VertexRows = std::array<std::array<std::uint64_t, 3>, 9>;
+template <class Word>
+using VertexRows = std::array<std::array<Word, 3>, 9>;
 
-/// Bit i: block i has unambiguous corners and regular vertices.
-std::uint64_t test_vertices(const VertexRows& row) {
-    std::array<std::uint64_t, 27> vertex;
+/// Bit i: block i has ambiguous corners, or a vertex that is not regular.
+template <class Word>
+[[gnu::always_inline]] inline Word bad_vertices(const VertexRows<Word>& row) {
+    std::array<Word, 27> vertex;
     for (int i = 0; i < 9; ++i) {
-        const std::uint64_t near = even_bits(row[i][0], row[i][1]);
+        const Word near = even_bits(row[i][0]) | even_bits(row[i][1]) << 32;
         vertex[3 * i] = near;
-        vertex[3 * i + 1] = even_bits(row[i][0] >> 1, row[i][1] >> 1);
+        vertex[3 * i + 1] = even_bits(row[i][0] >> 1) | even_bits(row[i][1] >> 1) << 32;
         vertex[3 * i + 2] = near >> 1 | row[i][2] << 63;
     }
-    std::array<std::uint64_t, 8> corner;
+    std::array<Word, 8> corner;
     for (int c = 0; c < 8; ++c) corner[c] = vertex[2 * (c & 1) + 6 * (c >> 1 & 1) + 18 * (c >> 2)];
-    return ~(ambiguous_corners(corner) | irregular_vertices(vertex));
+    return ambiguous_corners(corner) | irregular_vertices(vertex);
 }
 
-/// Bit i: the 8 cells of block i have unambiguous corners.
-std::uint64_t test_cells(const VertexRows& row) {
-    std::uint64_t bad = 0;
+/// Bit i: one of the 8 cells of block i has ambiguous corners.
+template <class Word>
+[[gnu::always_inline]] inline Word bad_cells(const VertexRows<Word>& row) {
+    Word bad{};
     for (int i = 0; i < 4; ++i) {
         const int first = (i & 1) + 3 * (i >> 1);
         for (int half = 0; half < 2; ++half) {
-            std::array<std::uint64_t, 8> corner;
+            std::array<Word, 8> corner;
             for (int k = 0; k < 4; ++k) {
-                const std::array<std::uint64_t, 3>& of = row[first + (k & 1) + 3 * (k >> 1)];
+                const std::array<Word, 3>& of = row[first + (k & 1) + 3 * (k >> 1)];
                 corner[2 * k] = of[half], corner[2 * k + 1] = of[half] >> 1 | of[half + 1] << 63;
             }
-            const std::uint64_t cells = ambiguous_corners(corner);
+            const Word cells = ambiguous_corners(corner);
             bad |= even_bits(cells | cells >> 1) << 32 * half;
         }
     }
-    return ~bad;
+    return bad;
+}
+
+/// The words that are tested at a time, by row, by word of the row.
+using WordBatch = std::array<std::array<std::array<std::uint64_t, kLanes>, 3>, 9>;
+
+/// with_cells: the blocks are of level 1. Bit i of a word: block i of its lane passes.
+ISOATLAS_TARGET_CLONES void test_words(const WordBatch& words, bool with_cells, std::array<std::uint64_t, kLanes>& good) {
+    VertexRows<Lanes> row;
+    static_assert(sizeof row == sizeof words);
+    std::memcpy(&row, &words, sizeof row);
+    Lanes bad = bad_vertices(row);
+    if (with_cells) bad |= bad_cells(row);
+    bad = ~bad;
+    std::memcpy(&good, &bad, sizeof good);
 }
 
 }  // namespace
+
+/// Words of blocks where classes are mixed, until there are enough to test them.
+class CoalescibleBlocks::Mixed {
+public:
+    explicit Mixed(int level) : with_cells_(level == 1) {}
+    Mixed(const Mixed&) = delete;
+    Mixed& operator=(const Mixed&) = delete;
+    ~Mixed() { test(); }
+
+    /// found: loses the bits of blocks that fail.
+    void add(const std::array<std::array<std::uint64_t, 3>, 9>& row, std::uint64_t& found) {
+        for (std::size_t i = 0; i < 9; ++i) {
+            for (std::size_t k = 0; k < 3; ++k) words_[i][k][count_] = row[i][k];
+        }
+        found_[count_] = &found;
+        if (++count_ == kLanes) test();
+    }
+
+private:
+    void test() {
+        std::array<std::uint64_t, kLanes> good;
+        if (count_ > 0) test_words(words_, with_cells_, good);
+        for (std::size_t lane = 0; lane < count_; ++lane) *found_[lane] &= good[lane];
+        count_ = 0;
+    }
+    WordBatch words_{};
+    std::array<std::uint64_t*, kLanes> found_{};
+    std::size_t count_ = 0;
+    bool with_cells_;
+};
 
 std::uint64_t unambiguous(const std::array<std::uint64_t, 8>& corner) { return ~ambiguous_corners(corner); }
 std::uint64_t regular(const std::array<std::uint64_t, 27>& vertex) { return ~irregular_vertices(vertex); }
@@ -97,8 +158,9 @@ CoalescibleBlocks::CoalescibleBlocks(const HighBits& high, int max_level, const 
     for (int level = 1; level <= max_level; ++level) {
         const Index3& vertices = levels_[static_cast<std::size_t>(level)].vertices.size();
         for_each_slab(context, kFrontPhases["blocks"], {vertices[2], 8 * vertices[0] * vertices[1]}, [&](const Slab& slab) {
+            Mixed mixed(level);
             for (std::int64_t z = slab.z_begin; z < slab.z_end; ++z) {
-                for (std::int64_t y = 0; y < vertices[1]; ++y) test_row(level, y, z);
+                for (std::int64_t y = 0; y < vertices[1]; ++y) test_row(level, y, z, mixed);
             }
         });
     }
@@ -135,7 +197,7 @@ std::uint64_t CoalescibleBlocks::test_children(int level, std::int64_t w, std::i
     return good;
 }
 
-void CoalescibleBlocks::test_row(int level, std::int64_t y, std::int64_t z) {
+void CoalescibleBlocks::test_row(int level, std::int64_t y, std::int64_t z, Mixed& mixed) {
     Level& here = levels_[static_cast<std::size_t>(level)];
     const bool has_blocks = y < here.size[1] && z < here.size[2];
     std::uint64_t* const found = has_blocks ? here.coalescible.row(y, z) : nullptr;
@@ -149,7 +211,7 @@ void CoalescibleBlocks::test_row(int level, std::int64_t y, std::int64_t z) {
             corners[w] = even_bits(word(from[0], 2 * w), word(from[0], 2 * w + 1));
             continue;
         }
-        VertexRows row;
+        std::array<std::array<std::uint64_t, 3>, 9> row;
         std::uint64_t any = 0, all = kAll;
         for (int i = 0; i < 9; ++i) {
             for (int k = 0; k < 3; ++k) row[i][k] = word(from[i], 2 * w + k);
@@ -157,13 +219,8 @@ void CoalescibleBlocks::test_row(int level, std::int64_t y, std::int64_t z) {
         }
         const bool is_uniform = any == 0 || all == kAll;
         corners[w] = is_uniform ? any : even_bits(row[0][0], row[0][1]);
-        std::uint64_t good = is_uniform ? kAll : test_vertices(row);
-        if (level > 1) {
-            good &= test_children(level, w, y, z);
-        } else if (!is_uniform) {
-            good &= test_cells(row);
-        }
-        found[w] = good;
+        found[w] = level > 1 ? test_children(level, w, y, z) : kAll;
+        if (!is_uniform) mixed.add(row, found[w]);
     }
 }
 

@@ -73,7 +73,8 @@ private:
         const std::uint64_t* const row = vertex_row(level, y, z);
         return row != nullptr && w < vertex_words(level) ? row[w] : 0;
     }
-    void test_row(int level, std::int64_t y, std::int64_t z);
+    class Mixed;
+    void test_row(int level, std::int64_t y, std::int64_t z, Mixed& mixed);
     /// Bit i: all children of block 64 w + i of the row are coalescible.
     [[nodiscard]] std::uint64_t test_children(int level, std::int64_t w, std::int64_t y, std::int64_t z) const;
 

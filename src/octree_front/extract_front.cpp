@@ -126,6 +126,9 @@ void require_front(const VolumeInfo& info, const FrontOptions& options, const Su
     require(surface.boundary == Boundary::closed, "a front that is open at the border of the volume", "a closed one");
     require(options.triangles >= 0, "the triangles of a front", "0 or more");
     require(options.deviation > 0, "the deviation of a front", "more than 0 voxels");
+    require(!options.eye || (options.eye->slope > 0 && std::isfinite(options.eye->slope)), "the slope of an eye", "a number above 0");
+    require(!options.eye || std::ranges::all_of(options.eye->position, [](double x) { return std::isfinite(x); }), "the place of an eye",
+            "three numbers");
     for (const SampleBox& box : options.exact) require(is_inside(box, info.extent), "a region of interest", "samples of the volume");
 }
 

@@ -126,7 +126,11 @@ std::int64_t FrontMesh<T>::point_of(const EdgeHit& hit) const {
 template <class T>
 void FrontMesh<T>::write(const std::vector<RowFans>& fans, Surface& surface) {
     resize_for_overwrite(layout_, static_cast<std::size_t>(domain_.rows_y() * domain_.rows_z() + 1));
-    std::ranges::fill(layout_, RowOffsets{});
+    const Slices slices{domain_.rows_z(), grid_.extent.slice()};
+    for_each_slab(context_, kFrontPhases["points"], slices, [&](const Slab& slab) {
+        std::fill(layout_.begin() + slab.z_begin * domain_.rows_y(), layout_.begin() + slab.z_end * domain_.rows_y(), RowOffsets{});
+    });
+    layout_.back() = {};
     first_.assign(fans.size() + 1, {0, 0});
     for_each_slab_of(1, context_, kFrontPhases["points"], leaves_.rows(), [&](const Slab& slab) {
         const std::int64_t row = slab.z_begin;
@@ -150,15 +154,17 @@ void FrontMesh<T>::write(const std::vector<RowFans>& fans, Surface& surface) {
     resize_for_overwrite(surface.contour, static_cast<std::size_t>(components_ != nullptr ? point : 0));
     resize_for_overwrite(surface.triangles, static_cast<std::size_t>(triangle));
 
-    for (std::int64_t group = groups_.begin(); group < groups_.end(); ++group) {
-        const auto [begin, end] = RowGroups::rows(domain_, group);
-        for (std::int64_t z = domain_.z_begin; z <= domain_.z_end; ++z) {
-            for (std::int64_t y = begin; y < end; ++y) {
-                const RowOffsets& place = layout_[domain_.row_number(y, z)];
-                if (place.x_hits + place.y_hits + place.z_hits > 0) groups_.use(group, z);
+    for_each_slab(context_, kFrontPhases["points"], slices, [&](const Slab& slab) {
+        for (std::int64_t z = slab.z_begin - 1; z < slab.z_end - 1; ++z) {
+            for (std::int64_t group = groups_.begin(); group < groups_.end(); ++group) {
+                const auto [begin, end] = RowGroups::rows(domain_, group);
+                for (std::int64_t y = begin; y < end; ++y) {
+                    const RowOffsets& place = layout_[domain_.row_number(y, z)];
+                    if (place.x_hits + place.y_hits + place.z_hits > 0) groups_.use(group, z);
+                }
             }
         }
-    }
+    });
     const HitWriter<T> hits(grid_, level_.tau, map_, domain_, surface);
     for_each_slab_of(1, context_, kFrontPhases["points"], hits.bundles(),
                      [&](const Slab& bundle) { hits.write(bundle.z_begin, layout_, groups_); });

@@ -33,6 +33,15 @@ struct Segment {
     EdgeHit from, to;
 };
 
+/// Is the block of the same level behind a face divided?
+bool is_divided_across(const FrontLeaves& leaves, const FrontLeaf& leaf, int face) {
+    const int normal = kFaceAxes[face / 2].normal;
+    Index3 across = leaf.block;
+    across[normal] += (face & 1) != 0 ? 1 : -1;
+    return leaf.level > 0 && across[normal] >= 0 && across[normal] < leaves.blocks().blocks(leaf.level)[normal] &&
+           leaves.is_divided(leaf.level, across);
+}
+
 /// Adds the segments in a face of a leaf.
 void add_segments(const FrontLeaves& leaves, const FrontLeaf& leaf, int face, std::vector<FrontLeaf>& pending,
                   std::vector<Segment>& found) {
@@ -41,22 +50,26 @@ void add_segments(const FrontLeaves& leaves, const FrontLeaf& leaf, int face, st
     while (!pending.empty()) {
         const FrontLeaf part = pending.back();
         pending.pop_back();
-        const int pattern = leaves.blocks().pattern(part.level, part.block);
-        Index3 across = part.block;
-        across[normal] += side == 1 ? 1 : -1;
-        if (part.level > 0 && across[normal] >= 0 && across[normal] < leaves.blocks().blocks(part.level)[normal] &&
-            leaves.is_divided(part.level, across)) {
+        if (is_divided_across(leaves, part, face)) {
             for (int child = 0; child < 8; ++child) {
                 if ((child >> normal & 1) != side) continue;
                 pending.push_back(part.child(child));
             }
             continue;
         }
+        const int pattern = leaves.blocks().pattern(part.level, part.block);
         const FaceSegment segment = face_segments()[static_cast<std::size_t>(pattern)][static_cast<std::size_t>(face)];
         if (segment.from < 0) continue;
         found.push_back({hit_on_edge(leaves.blocks(), part.level, part.block, segment.from),
                          hit_on_edge(leaves.blocks(), part.level, part.block, segment.to)});
     }
+}
+
+bool has_smaller_neighbour(const FrontLeaves& leaves, const FrontLeaf& leaf) {
+    for (int face = 0; face < 6; ++face) {
+        if (is_divided_across(leaves, leaf, face)) return true;
+    }
+    return false;
 }
 
 bool is_before(const EdgeHit& a, const EdgeHit& b) {
@@ -79,23 +92,6 @@ EdgeHit hit_on_edge(const CoalescibleBlocks& blocks, int level, const Index3& bl
     }
     return {first, axis};
 }
-
-namespace {
-
-/// Is a neighbour across a face of the leaf divided?
-bool has_smaller_neighbour(const FrontLeaves& leaves, const FrontLeaf& leaf) {
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-        for (const int step : {-1, 1}) {
-            Index3 across = leaf.block;
-            across[axis] += step;
-            if (across[axis] >= 0 && across[axis] < leaves.blocks().blocks(leaf.level)[axis] && leaves.is_divided(leaf.level, across))
-                return true;
-        }
-    }
-    return false;
-}
-
-}  // namespace
 
 void find_loop(const FrontLeaves& leaves, const FrontLeaf& leaf, std::vector<EdgeHit>& hits) {
     if (!has_smaller_neighbour(leaves, leaf)) {  // that of a cell with its corners

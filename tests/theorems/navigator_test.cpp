@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
+#include "isoatlas/octree_front.h"
 #include "isoatlas/phantom.h"
 #include "oracle/stores.h"
 
@@ -40,6 +41,13 @@ RC_GTEST_FIXTURE_PROP(Navigation, ShowsWhatAFreshQueryShows, ()) {
         if (*rc::gen::inRange(0, 10) == 0) to = *rc::gen::element(low - 1, low, high, high + 1, -1e300, 1e300);
         if (*rc::gen::inRange(0, 6) == 0) atlas.clear_cache();
         RC_ASSERT(same(navigator.go_to(to, arbitrary_context()), isoatlas::extract(volume, to, options)));
+        if (grid.rank == 3 && options.surface.boundary == isoatlas::Boundary::closed && *rc::gen::inRange(0, 3) == 0) {
+            const isoatlas::FrontOptions front{.max_level = *rc::gen::inRange(1, 4)};
+            const double there = *rc::gen::element(to, low, high);
+            const isoatlas::FrontSurface own = navigator.extract_front(there, front, arbitrary_context());
+            RC_ASSERT(same(own.surface, isoatlas::extract_front(volume, there, front, options).surface));
+            to = there;
+        }
         if (*rc::gen::inRange(0, 2) == 0) continue;  // the cost is counted when it is asked for
         isoatlas::QueryCost fresh;
         (void)atlas.extract(to, options.surface, {}, &fresh);

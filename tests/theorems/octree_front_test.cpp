@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <set>
 
 #include "geometry/triangles.h"
@@ -229,6 +230,10 @@ TEST(OctreeFronts, RefuseOptionsOutOfRange) {
     EXPECT_EQ(refused(volume, {.max_level = 6}), isoatlas::ErrorKind::usage);
     EXPECT_EQ(refused(volume, {.max_level = -1}), isoatlas::ErrorKind::usage);
     EXPECT_EQ(refused(volume, {.deviation = 0}), isoatlas::ErrorKind::usage);
+    const double nan = std::numeric_limits<double>::quiet_NaN();
+    for (const double slope : {nan, -0.001, 0.0, std::numeric_limits<double>::infinity()})
+        EXPECT_EQ(refused(volume, {.eye = isoatlas::FrontEye{{0, 0, 9}, slope}}), isoatlas::ErrorKind::usage);
+    EXPECT_EQ(refused(volume, {.eye = isoatlas::FrontEye{{0, nan, 9}}}), isoatlas::ErrorKind::usage);
     EXPECT_EQ(refused(volume, {.exact = {{{0, 0, 0}, {99, 1, 1}}}}), isoatlas::ErrorKind::usage);
     const std::vector<float> flat(16, 1);
     EXPECT_EQ(refused(isoatlas::make_volume<float>({2, {4, 4, 1}}, flat), {}), isoatlas::ErrorKind::unsupported);

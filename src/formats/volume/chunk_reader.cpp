@@ -81,13 +81,29 @@ private:
         const Index3 corner{chunk[0] * size[0], chunk[1] * size[1], chunk[2] * size[2]};
         const Index3 inside = min(corner + size, info_.extent.size);
         const Index3 begin = max(corner, box.begin), end = min(inside, box.end);
+        if (const std::span<std::byte> place = whole_in(box, begin, end, out); !place.empty() && cache_.find(number_of(chunk)) == nullptr)
+            return read_chunk_(chunk, place);
         const std::vector<std::byte>& samples = chunk_of(chunk, begin == corner && end == inside);
         copy_box(end - begin, {samples, size, begin - corner}, {out, box.size(), begin - box.begin}, size_of(info_.type));
     }
 
+    /// Where a whole chunk lies in `out`, if it does in one piece and needs no copy; else empty. begin, end: of what the box takes of it.
+    [[nodiscard]] std::span<std::byte> whole_in(const SampleBox& box, const Index3& begin, const Index3& end,
+                                                std::span<std::byte> out) const {
+        const Index3 &chunk = info_.chunk, wide = box.size();
+        const bool is_one_piece = wide[0] == chunk[0] && (wide[1] == chunk[1] || chunk[2] == 1);
+        if (!is_one_piece || end - begin != chunk) return {};
+        const Index3 at = begin - box.begin;
+        const std::size_t sample = size_of(info_.type);
+        return out.subspan(static_cast<std::size_t>(at[0] + wide[0] * (at[1] + wide[1] * at[2])) * sample,
+                           static_cast<std::size_t>(chunk.product()) * sample);
+    }
+
+    [[nodiscard]] std::int64_t number_of(const Index3& chunk) const { return chunk[0] + chunks_[0] * (chunk[1] + chunks_[1] * chunk[2]); }
+
     /// is_whole: no other box needs it soon.
     const std::vector<std::byte>& chunk_of(const Index3& chunk, bool is_whole) {
-        const std::int64_t number = chunk[0] + chunks_[0] * (chunk[1] + chunks_[1] * chunk[2]);
+        const std::int64_t number = number_of(chunk);
         if (const std::vector<std::byte>* found = cache_.find(number)) return *found;
         scratch_.resize(static_cast<std::size_t>(info_.chunk.product()) * size_of(info_.type));
         read_chunk_(chunk, scratch_);
