@@ -18,7 +18,7 @@ BUILDS = STORES + ENGINE + ["src/features"]
 PICTURES, PAGES = ["src/render"], "src/features src/catalogue src/page src/preview src/render".split()
 MEASURED = {
     "engine": ENGINE, "phases": ENGINE, "scale-analysis": ENGINE, "extract": SURFACES, "scale-extract": SURFACES,
-    "store-builds": BUILDS, "store-phases": BUILDS, "store-surfaces": STORES, "store-objects": STORES, "scale-stores": BUILDS,
+    "store-builds": BUILDS, "store-phases": BUILDS, "store-surfaces": STORES, "store-objects": STORES, "scale-stores": BUILDS, "fronts": STORES + ["src/octree_front"],
     "render": PICTURES, "scale-render": PICTURES, "pages": PAGES, "scale-pages": PAGES,
     "formats": ["src/formats/volume", "src/formats/zarr", "src/formats/common"], "python-surfaces": ["python"], "python-facts": ["python"],
     "methods": ["src/methods/search", "src/methods/disk"],
