@@ -1,6 +1,6 @@
 // Array: a std::vector for large results.
 //
-// Freed memory is kept for the next array (fresh pages cost more than much of the work done on them), but never more than was in use at
+// Freed memory is kept for the next array (fresh pages cost more than much of the work done on them), but hardly more than was in use at
 // once; trim_memory_pool() releases it. New elements are not initialised: resize() before writing every element.
 #pragma once
 

@@ -19,8 +19,8 @@ constexpr std::uint64_t kAll = ~std::uint64_t{0};
 Index3 halved(const Index3& blocks) { return {(blocks[0] + 1) / 2, (blocks[1] + 1) / 2, (blocks[2] + 1) / 2}; }
 
 /// Words of 64 bits, and several of them side by side: what is computed for one is for all.
-constexpr int kLanes = 8;
-typedef std::uint64_t Lanes __attribute__((vector_size(8 * kLanes)));  // NOLINT(modernize-use-using): an alias would lose the attribute
+constexpr int kAtOnce = 8;
+typedef std::uint64_t Words __attribute__((vector_size(8 * kAtOnce)));  // NOLINT(modernize-use-using): an alias would lose the attribute
 
 /// Bit i: the corners of cell i are ambiguous.
 template <class Word>
@@ -96,14 +96,14 @@ template <class Word>
 }
 
 /// The words that are tested at a time, by row, by word of the row.
-using WordBatch = std::array<std::array<std::array<std::uint64_t, kLanes>, 3>, 9>;
+using WordBatch = std::array<std::array<std::array<std::uint64_t, kAtOnce>, 3>, 9>;
 
 /// with_cells: the blocks are of level 1. Bit i of a word: block i of its lane passes.
-ISOATLAS_TARGET_CLONES void test_words(const WordBatch& words, bool with_cells, std::array<std::uint64_t, kLanes>& good) {
-    VertexRows<Lanes> row;
+ISOATLAS_TARGET_CLONES void test_words(const WordBatch& words, bool with_cells, std::array<std::uint64_t, kAtOnce>& good) {
+    VertexRows<Words> row;
     static_assert(sizeof row == sizeof words);
     std::memcpy(&row, &words, sizeof row);
-    Lanes bad = bad_vertices(row);
+    Words bad = bad_vertices(row);
     if (with_cells) bad |= bad_cells(row);
     bad = ~bad;
     std::memcpy(&good, &bad, sizeof good);
@@ -125,18 +125,18 @@ public:
             for (std::size_t k = 0; k < 3; ++k) words_[i][k][count_] = row[i][k];
         }
         found_[count_] = &found;
-        if (++count_ == kLanes) test();
+        if (++count_ == kAtOnce) test();
     }
 
 private:
     void test() {
-        std::array<std::uint64_t, kLanes> good;
+        std::array<std::uint64_t, kAtOnce> good;
         if (count_ > 0) test_words(words_, with_cells_, good);
         for (std::size_t lane = 0; lane < count_; ++lane) *found_[lane] &= good[lane];
         count_ = 0;
     }
     WordBatch words_{};
-    std::array<std::uint64_t*, kLanes> found_{};
+    std::array<std::uint64_t*, kAtOnce> found_{};
     std::size_t count_ = 0;
     bool with_cells_;
 };
