@@ -171,14 +171,19 @@ ordered_json surface(const Arguments& arguments) {
     return result;
 }
 
+/// 0.5 % of the range, from tau towards its middle.
+double step_from(double tau, const Atlas& atlas) {
+    const auto [low, high] = atlas.range();
+    return (tau < 0.5 * (low + high) ? 0.005 : -0.005) * (high - low);
+}
+
 /// Steps towards the middle of the range, as a key that is held down makes them: each meets bricks that none before has read.
 ordered_json measure_steps(const Arguments& arguments) {
     const isoatlas::SurfaceOptions options = without_ids();
     const Atlas walked(arguments.word(1)), fresh(arguments.word(1));
     isoatlas::Navigator navigator(walked, options);
-    const std::array<double, 2> range = walked.range();
     double tau = arguments.tau();
-    const double step = (tau < 0.5 * (range[0] + range[1]) ? 0.005 : -0.005) * (range[1] - range[0]);
+    const double step = step_from(tau, walked);
     navigator.go_to(tau, arguments.context);
     (void)fresh.extract(tau, options, arguments.context);  // what a store reads once
     ordered_json result{{"step", ordered_json::array()}, {"fresh", ordered_json::array()}};
@@ -191,14 +196,13 @@ ordered_json measure_steps(const Arguments& arguments) {
     return result;
 }
 
-/// Steps as above, there and back, so that the samples of all are present from the first round on.
+/// Three steps as above, then back to the first isovalue, again and again: samples are present from the first round on.
 ordered_json measure_fronts(const Arguments& arguments) {
     const isoatlas::SurfaceOptions options = without_ids();
     const isoatlas::FrontOptions front{.max_level = 4};
     const Atlas atlas(arguments.word(1));
     isoatlas::Navigator navigator(atlas, options);
-    const std::array<double, 2> range = atlas.range();
-    const double step = (arguments.tau() < 0.5 * (range[0] + range[1]) ? 0.005 : -0.005) * (range[1] - range[0]);
+    const double step = step_from(arguments.tau(), atlas);
     ordered_json result;
     for (int i = -4; i < arguments.repeats; ++i) {
         const double tau = arguments.tau() + step * std::abs(i % 4);

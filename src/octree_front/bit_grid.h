@@ -53,7 +53,8 @@ template <class Word>
     return (word | word >> 16) & 0x00000000ffffffff;
 }
 /// Those of two words.
-[[nodiscard]] constexpr std::uint64_t even_bits(std::uint64_t first, std::uint64_t second) {
+template <class Word>
+[[nodiscard, gnu::always_inline]] constexpr Word even_bits(Word first, Word second) {
     return even_bits(first) | even_bits(second) << 32;
 }
 

@@ -66,9 +66,9 @@ template <class Word>
 [[gnu::always_inline]] inline Word bad_vertices(const VertexRows<Word>& row) {
     std::array<Word, 27> vertex;
     for (int i = 0; i < 9; ++i) {
-        const Word near = even_bits(row[i][0]) | even_bits(row[i][1]) << 32;
+        const Word near = even_bits(row[i][0], row[i][1]);
         vertex[3 * i] = near;
-        vertex[3 * i + 1] = even_bits(row[i][0] >> 1) | even_bits(row[i][1] >> 1) << 32;
+        vertex[3 * i + 1] = even_bits(row[i][0] >> 1, row[i][1] >> 1);
         vertex[3 * i + 2] = near >> 1 | row[i][2] << 63;
     }
     std::array<Word, 8> corner;
@@ -120,7 +120,7 @@ public:
     ~Mixed() { test(); }
 
     /// found: loses the bits of blocks that fail.
-    void add(const std::array<std::array<std::uint64_t, 3>, 9>& row, std::uint64_t& found) {
+    void add(const VertexRows<std::uint64_t>& row, std::uint64_t& found) {
         for (std::size_t i = 0; i < 9; ++i) {
             for (std::size_t k = 0; k < 3; ++k) words_[i][k][count_] = row[i][k];
         }
@@ -211,7 +211,7 @@ void CoalescibleBlocks::test_row(int level, std::int64_t y, std::int64_t z, Mixe
             corners[w] = even_bits(word(from[0], 2 * w), word(from[0], 2 * w + 1));
             continue;
         }
-        std::array<std::array<std::uint64_t, 3>, 9> row;
+        VertexRows<std::uint64_t> row;
         std::uint64_t any = 0, all = kAll;
         for (int i = 0; i < 9; ++i) {
             for (int k = 0; k < 3; ++k) row[i][k] = word(from[i], 2 * w + k);
