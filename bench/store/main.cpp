@@ -10,8 +10,8 @@
 // Each prints one JSON document. --analysis: in turns with an analysis of the volume in memory. Seconds are those of every repeat:
 //   open   opening the store, the file's pages in memory     warm   the query of an open store that holds no bricks
 //   again  the same query once more                          cold   opening and first query, the file's pages dropped before
-//   copy   as many samples as that query needs, uncoded, from pages of the store that the system holds into new memory, on one thread:
-//          what is left of reading if decoding and checking cost nothing
+//   copy   as many samples as that query needs, uncoded, from pages of the store that the system holds into new memory, in as many reads,
+//          on one thread: what is left of reading if decoding and checking cost nothing
 //   exact  the whole surface, samples there                  front  the same as an octree front, of a query without a step before
 //   step   from the isovalue before to this one              fresh  the query at this one of a store that holds no bricks
 // compare_vtk.py runs all this beside VTK's Flying Edges on the same volume.
@@ -81,7 +81,10 @@ ordered_json measure_warm(const Arguments& arguments, const isoatlas::SurfaceOpt
     isoatlas::QueryCost needed;
     surface = atlas.extract(arguments.tau(), options, arguments.context, &needed);  // with what a store reads once
     const std::int64_t raw = needed.cells_visited * static_cast<std::int64_t>(isoatlas::size_of(atlas.info().type));
-    for (int i = 0; i < arguments.repeats; ++i) result["copy"].push_back(seconds_of([&] { copy_to_new_memory(arguments.word(1), raw); }));
+    const std::int64_t reads = needed.extents;
+    for (int i = 0; i < arguments.repeats; ++i)
+        result["copy"].push_back(seconds_of([&] { copy_to_new_memory(arguments.word(1), raw, reads); }));
+    result["samples_bytes"] = raw;
     for (int i = 0; i < arguments.repeats; ++i) {
         surface = {};
         atlas.clear_cache();
