@@ -74,7 +74,7 @@ public:
     [[nodiscard]] std::int64_t bytes() const;  ///< size of the file
     /// Name of a compression; "raw" for none.
     [[nodiscard]] static std::string encoding(int compression);
-    /// Offset of the first sample when the page is uncompressed and in one piece, else -1.
+    /// Offset of the first sample when the page is uncompressed and its strips follow each other, else -1.
     [[nodiscard]] std::int64_t contiguous_offset(const TiffPage& page);
     /// Decodes the strip or tile in this column and row of them, host byte order. out: its values, piece_width x piece_height; those
     /// outside the page are not written for strips. Throws Error{input} naming the page: also when the checksum of a deflate stream is

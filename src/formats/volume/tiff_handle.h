@@ -53,7 +53,8 @@ struct TiffFile::Handle {
 
     // tiff_pieces.cpp
     void decode(const TiffPage& page, std::uint32_t number, std::span<std::byte> out);
-    void check_piece(std::uint32_t number, std::int64_t wanted, const std::string& name);
+    [[nodiscard]] bool ends_with_checksum_of(std::uint32_t number, std::span<const std::byte> decoded);
+    void check_piece(std::uint32_t number, std::span<const std::byte> decoded, const std::string& name);
     [[nodiscard]] std::int64_t decoded_bytes(std::uint32_t number, std::int64_t wanted);
 
     template <class T>

@@ -1,5 +1,8 @@
 // Strips and tiles of a TIFF file, decoded and checked.
+#include <zlib.h>
+
 #include <algorithm>
+#include <array>
 #include <cstring>
 
 #include "base/check.h"
@@ -25,8 +28,26 @@ std::int64_t TiffFile::Handle::decoded_bytes(std::uint32_t number, std::int64_t 
     return compression == COMPRESSION_LZW ? lzw_bytes(packed).value_or(wanted) : packbits_bytes(packed);
 }
 
+/// Is the strip or tile one deflate stream that ends with the checksum of these decoded bytes? Not known where they are not those of the
+/// stream, for a predictor or the byte order.
+bool TiffFile::Handle::ends_with_checksum_of(std::uint32_t number, std::span<const std::byte> decoded) {
+    const int compression = tag<std::uint16_t>(TIFFTAG_COMPRESSION, COMPRESSION_NONE);
+    if (compression != COMPRESSION_DEFLATE && compression != COMPRESSION_ADOBE_DEFLATE) return false;
+    if (tag<std::uint16_t>(TIFFTAG_PREDICTOR, PREDICTOR_NONE) != PREDICTOR_NONE) return false;
+    std::array<std::byte, 4> end{};
+    const std::uint64_t offset = TIFFGetStrileOffset(tiff, number), bytes = TIFFGetStrileByteCount(tiff, number);
+    const auto size = static_cast<std::uint64_t>(client.file->size());
+    if (bytes < end.size() || offset > size || bytes > size - offset) return false;
+    read_fully(*client.file, client.path, static_cast<std::int64_t>(offset + bytes - end.size()), end);
+    std::uint32_t checksum = 0;  // big-endian
+    for (const std::byte b : end) checksum = checksum << 8 | std::to_integer<std::uint32_t>(b);
+    return checksum == adler32_z(adler32_z(0, nullptr, 0), reinterpret_cast<const Bytef*>(decoded.data()), decoded.size());
+}
+
 /// libtiff stops when it has enough bytes: before the checksum of deflate, and before superfluous bytes.
-void TiffFile::Handle::check_piece(std::uint32_t number, std::int64_t wanted, const std::string& name) {
+void TiffFile::Handle::check_piece(std::uint32_t number, std::span<const std::byte> decoded, const std::string& name) {
+    if (ends_with_checksum_of(number, decoded)) return;
+    const auto wanted = static_cast<std::int64_t>(decoded.size());
     const std::int64_t found = decoded_bytes(number, wanted);
     if (found == wanted || (found > wanted && skip_rest)) return;
     throw Error(ErrorKind::input,
@@ -46,7 +67,7 @@ void TiffFile::Handle::decode(const TiffPage& page, std::uint32_t number, std::s
     const tmsize_t done =
         tiled ? TIFFReadEncodedTile(tiff, number, out.data(), wanted) : TIFFReadEncodedStrip(tiff, number, out.data(), wanted);
     if (done != wanted) corrupt(name, "cannot be read");
-    check_piece(number, wanted, name);
+    check_piece(number, out, name);
 }
 
 void TiffFile::read_piece(const TiffPage& page, std::int64_t column, std::int64_t row, const PixelChoice& choice,
@@ -95,6 +116,7 @@ std::int64_t TiffFile::contiguous_offset(const TiffPage& page) {
     handle_->load(page.directory, handle_->where);
     TIFF* tiff = handle_->tiff;
     if (page.compression != COMPRESSION_NONE || page.is_planar || TIFFIsTiled(tiff) != 0) return -1;
+    if (handle_->tag<std::uint16_t>(TIFFTAG_FILLORDER, FILLORDER_MSB2LSB) != FILLORDER_MSB2LSB) return -1;
     const std::uint32_t strips = TIFFNumberOfStrips(tiff);
     const std::uint64_t first = TIFFGetStrileOffset(tiff, 0);
     std::uint64_t expected = first;

@@ -35,15 +35,24 @@ public:
             const TiffPage other = file(slice.file).page_at(slice.directory, slice.number, level, level > 0 || volume_.files.size() > 1);
             require_same(page, other, volume_.files[slice.file]);
             is_alike = is_alike && page.same_layout(other);
+            offsets_.push_back(file(slice.file).contiguous_offset(other));
         }
         page_ = page, level_ = level, by_pieces_ = is_alike && volume_.slices[0].raw < 0;
+        // A file that is opened again may have changed: then its directories are read again.
+        if (!by_pieces_ || volume_.files.size() > 1 || std::ranges::find(offsets_, -1) != offsets_.end()) offsets_.clear();
         return by_pieces_;
     }
 
     void read(const Index3& chunk, std::span<std::byte> out) {
         const TiffSlice& slice = volume_.slices[static_cast<std::size_t>(chunk[2])];
         TiffFile& from = file(slice.file);
-        if (slice.raw >= 0) return read_raw(from, slice, out);
+        if (slice.raw >= 0) return read_raw(from, slice.raw, out);
+        if (!offsets_.empty()) {
+            const std::int64_t row = chunk[1] * page_.piece_height, rows = std::min(page_.piece_height, page_.height - row);
+            const std::int64_t row_bytes = page_.width * static_cast<std::int64_t>(size_of(page_.type));
+            return read_raw(from, offsets_[static_cast<std::size_t>(chunk[2])] + row * row_bytes * page_.pixel.samples,
+                            out.first(static_cast<std::size_t>(rows * row_bytes)));
+        }
         const TiffPage page = page_again(from, slice);
         if (!page.same_shape(page_) || (by_pieces_ && !page.same_layout(page_))) changed(slice, "");
         if (by_pieces_) return from.read_piece(page, chunk[0], chunk[1], volume_.pixel, out);
@@ -76,11 +85,11 @@ private:
                      .next = "all pages of a volume must have one size and type: move other images to other files"});
     }
 
-    void read_raw(TiffFile& from, const TiffSlice& slice, std::span<std::byte> out) {
+    void read_raw(TiffFile& from, std::int64_t offset, std::span<std::byte> out) {
         const auto samples = static_cast<std::size_t>(page_.pixel.samples);
         pixels_.resize(samples > 1 ? out.size() * samples : 0);
         const std::span<std::byte> bytes = samples > 1 ? std::span<std::byte>(pixels_) : out;
-        from.read_raw(slice.raw, bytes);
+        from.read_raw(offset, bytes);
         if (needs_swap(from.big_endian())) swap_bytes(bytes, size_of(page_.type));
         if (samples > 1) take_values(pixels_, page_.pixel.samples, page_.type, volume_.pixel, out);
     }
@@ -91,6 +100,7 @@ private:
     TiffPage page_;
     std::int64_t level_ = 0;
     bool by_pieces_ = false;
+    std::vector<std::int64_t> offsets_;  ///< of the pixels of each slice, where they can be read without libtiff; else empty
     std::vector<std::byte> pixels_;
 };
 
