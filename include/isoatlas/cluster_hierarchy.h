@@ -48,20 +48,26 @@ struct ClusterOptions {
 /// none, and no chosen group replaces are a surface with the contours of `surface`, each with its genus, nested alike, closed where
 /// `surface` is, without crossings; both are at most as far apart as the greatest distance of a chosen group says, both ways.
 /// docs/theory/10-level-of-detail.md has the proof. Throws Error as simplify_surface(). The same bytes for any number of threads.
-/// Cost: some 150 us a triangle on one processor. Memory: some 400 bytes a triangle.
-[[nodiscard]] ClusterHierarchy make_clusters(const Surface& surface, const Geometry& geometry, const Extent& extent,
+/// Cost: some 150 us a triangle on one processor. Memory: some 300 bytes a triangle, of which a budget of the environment keeps what it
+/// allows in memory and the rest in its scratch file (environment.h).
+[[nodiscard]] ClusterHierarchy make_clusters(Surface surface, const Geometry& geometry, const Extent& extent,
                                              const ClusterOptions& options = {}, const Context& context = {});
 
 /// From where a surface is seen.
 struct Viewpoint {
-    Vec3 eye{};        ///< physical
-    double pixel = 0;  ///< how wide a pixel is at a physical distance of 1 from the eye, physical; above 0
-    double near = 0;   ///< what is nearer to the eye than this counts as being there, physical; above 0
+    Vec3 eye{};                      ///< physical
+    double pixel = 0;                ///< how wide a pixel is at a physical distance of 1 from the eye, physical; above 0
+    double near = 0;                 ///< what is nearer to the eye than this counts as being there, physical; above 0
+    Vec3 towards{};                  ///< the direction of the view, of any length above 0
+    double half_angle = kAllAround;  ///< radians, below pi/2: what is seen lies in a cone of that angle around the direction
+
+    static constexpr double kAllAround = 4;  ///< whatever the direction, all is seen
 };
 
 /// Of each group: how many pixels what replaces it is at most from the exact surface, as it is seen where its ball comes nearest to the
-/// eye. At least those of the groups that made its clusters: the groups of at most so many pixels are a choice. length: physical, of a unit
-/// of ClusterGroup::distance in the direction where it is longest. Throws Error{usage}: pixel, near or length is not positive. Source:
+/// eye; a sixteenth of that where its ball is outside the view. At least those of the groups that made its clusters: the groups of at most
+/// so many pixels are a choice. length: physical, of a unit of ClusterGroup::distance in the direction where it is longest. Throws
+/// Error{usage}: pixel, near or length is not positive, a direction is missing, an angle is neither below pi/2 nor all around. Source:
 /// Cignoni et al., 2004, and Karis, 2021, as above.
 [[nodiscard]] std::vector<double> pixels_of_groups(const ClusterHierarchy& hierarchy, const Viewpoint& from, double length = 1);
 

@@ -37,6 +37,12 @@ struct SeenSurface {
     double pixels = 0;             ///< no point of it is seen farther than so many pixels from the exact surface, nor back
 };
 
+struct LevelsOptions {
+    /// Bytes: large arrays lie in a scratch file in PATH.build, mapped as far as this allows. What extract() needs of a store, the samples
+    /// of the bricks on the surface, is in memory, too. 0: half of the available memory, for surfaces that need more.
+    std::int64_t memory = 0;
+};
+
 /// The file beside a store: STORE.lod; of low values: scan.low.atlas.lod beside scan.atlas, as beside scan.low.atlas.
 [[nodiscard]] std::string levels_path(const std::string& store, Polarity polarity = Polarity::high);
 
@@ -44,9 +50,9 @@ struct SeenSurface {
 /// interrupted call goes on where it ended; then writes the file: what it held before and the new ones. Returns what it holds. Of the same
 /// surfaces in the same order the same bytes, for any number of threads and interruptions. Throws Error: as Atlas::extract() and
 /// make_clusters(), input (the file is damaged, or of another store), unsupported (a 2D image), resource, cancelled. Cost: some 150 us a
-/// triangle on one processor; memory: that of the largest surface, some 500 bytes a triangle.
+/// triangle on one processor; memory: that of the largest surface, some 400 bytes a triangle, or what the options allow.
 std::vector<PreparedLevels> make_levels(const Atlas& atlas, const std::string& path, std::span<const LevelsKey> surfaces,
-                                        const Context& context = {});
+                                        const LevelsOptions& options = {}, const Context& context = {});
 
 /// An open file of levels. Reading is thread safe.
 class Levels {

@@ -2,6 +2,8 @@
 #include "level_of_detail/cluster_choice.h"
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 
 #include "geometry/vectors.h"
 #include "isoatlas/error.h"
@@ -43,6 +45,34 @@ std::vector<std::int64_t> clusters_within(const ClusterHierarchy& hierarchy, dou
                               [&](std::int64_t group) { return hierarchy.groups[static_cast<std::size_t>(group)].distance <= distance; });
 }
 
+/// The cone of a viewpoint. Notation: s, c: sine and cosine of its half angle; a point is h along the axis and r beside it.
+class SeenCone {
+public:
+    explicit SeenCone(const Viewpoint& from) : eye_(from.eye), is_all_(from.half_angle == Viewpoint::kAllAround) {
+        if (is_all_) return;
+        const double length = norm(from.towards);
+        if (!(from.half_angle > 0 && from.half_angle < std::numbers::pi / 2))
+            throw Error(ErrorKind::usage, {.what = "the angle of a view", .expected = "above 0 and less than half a turn as a whole"});
+        if (!(length > 0 && std::isfinite(length)))
+            throw Error(ErrorKind::usage, {.what = "a view has no direction", .expected = "three finite numbers, not all 0"});
+        for (std::size_t axis = 0; axis < 3; ++axis) axis_[axis] = from.towards[axis] / length;
+        sine_ = std::sin(from.half_angle), cosine_ = std::cos(from.half_angle);
+    }
+    /// The distance r c - h s from the mantle is at most that from the cone.
+    [[nodiscard]] bool may_meet(const Vec3& centre, double radius) const {
+        if (is_all_) return true;
+        const Vec3 away = minus(centre, eye_);
+        const double along = dot(away, axis_);
+        const double beside = std::sqrt(std::max(0.0, dot(away, away) - along * along));
+        return beside * cosine_ - along * sine_ <= radius;
+    }
+
+private:
+    Vec3 eye_, axis_{};
+    double sine_ = 0, cosine_ = 1;
+    bool is_all_;
+};
+
 }  // namespace
 
 std::vector<std::int64_t> clusters_of_choice(const ClusterHierarchy& hierarchy, const std::function<bool(std::int64_t)>& is_chosen) {
@@ -75,11 +105,14 @@ std::int64_t triangles_within(const ClusterHierarchy& hierarchy, double distance
 std::vector<double> pixels_of_groups(const ClusterHierarchy& hierarchy, const Viewpoint& from, double length) {
     if (!(from.pixel > 0) || !(from.near > 0) || !(length > 0))
         throw Error(ErrorKind::usage, {.what = "a length of the viewpoint is not positive", .expected = "more than 0"});
+    constexpr double kUnseen = 1.0 / 16;  // coarse, and not so coarse that a turn of the view shows it before finer clusters are there
+    const SeenCone seen(from);
     std::vector<double> pixels;
     pixels.reserve(hierarchy.groups.size());
     for (const ClusterGroup& group : hierarchy.groups) {
         const double away = norm(minus(group.centre, from.eye)) - group.radius;
         double most = group.distance * length / (from.pixel * std::max(away, from.near));
+        if (!seen.may_meet(group.centre, group.radius)) most *= kUnseen;
         for (const std::int64_t part : group.made_of) most = std::max(most, pixels[static_cast<std::size_t>(part)]);  // rounding
         pixels.push_back(most);
     }

@@ -75,10 +75,10 @@ std::vector<std::size_t> colours_of(std::span<const BoundingBox> boxes) {
     return colours;
 }
 
-void lock_borders(const Versions& versions, std::span<const std::vector<std::int64_t>> groups, std::vector<std::uint8_t>& is_locked) {
+void lock_borders(const Versions& versions, std::span<const std::vector<std::int64_t>> groups, Array<std::uint8_t>& is_locked) {
     constexpr std::uint32_t kNoGroup = kNone;
     const std::size_t points = versions.hierarchy().surface.points.size();
-    std::vector<std::uint32_t> group_of(points, kNoGroup);
+    Array<std::uint32_t> group_of(points, kNoGroup);
     is_locked.assign(points, 0);
     for (std::uint32_t group = 0; group < groups.size(); ++group) {
         for (const std::int64_t cluster : groups[group]) {

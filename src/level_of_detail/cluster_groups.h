@@ -23,6 +23,6 @@ struct GroupGrid {
 [[nodiscard]] std::vector<std::size_t> colours_of(std::span<const BoundingBox> boxes);
 
 /// Marks the points of the clusters that more than one group has. is_locked: of each point of the versions.
-void lock_borders(const Versions& versions, std::span<const std::vector<std::int64_t>> groups, std::vector<std::uint8_t>& is_locked);
+void lock_borders(const Versions& versions, std::span<const std::vector<std::int64_t>> groups, Array<std::uint8_t>& is_locked);
 
 }  // namespace isoatlas

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include "geometry/vectors.h"
 #include "isoatlas/environment.h"
@@ -24,8 +25,7 @@ class HierarchyMaker {
 public:
     HierarchyMaker(ClusterHierarchy& hierarchy, const SurfaceFrame& frame, const ClusterOptions& options, const Context& context)
         : hierarchy_(hierarchy),
-          versions_(hierarchy, frame, options,
-                    std::array{Triangles(hierarchy.surface.triangles.begin(), hierarchy.surface.triangles.end())}),
+          versions_(hierarchy, frame, options, {}),
           levels_(hierarchy, versions_, context),
           options_(options),
           context_(context) {
@@ -122,7 +122,7 @@ private:
 
 }  // namespace
 
-ClusterHierarchy make_clusters(const Surface& surface, const Geometry& geometry, const Extent& extent, const ClusterOptions& options,
+ClusterHierarchy make_clusters(Surface surface, const Geometry& geometry, const Extent& extent, const ClusterOptions& options,
                                const Context& context) {
     const EnvironmentScope scope(context);
     if (!(options.first_distance > 0)) {
@@ -132,9 +132,9 @@ ClusterHierarchy make_clusters(const Surface& surface, const Geometry& geometry,
         throw Error(ErrorKind::usage, {.what = "the size of clusters or groups is not positive", .expected = "1 or more"});
     }
     require_few_triangles(surface);
-    ClusterHierarchy hierarchy{.surface = surface, .clusters = {}, .groups = {}, .unit = options.unit};
-    if (surface.triangles.empty()) return hierarchy;
-    const SurfaceFrame frame(surface, geometry, extent, options.unit);
+    ClusterHierarchy hierarchy{.surface = std::move(surface), .clusters = {}, .groups = {}, .unit = options.unit};
+    if (hierarchy.surface.triangles.empty()) return hierarchy;
+    const SurfaceFrame frame(hierarchy.surface, geometry, extent, options.unit);
     HierarchyMaker(hierarchy, frame, options, context).run();
     order_by_distance(hierarchy);
     return hierarchy;

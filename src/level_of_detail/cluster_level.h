@@ -37,7 +37,7 @@ private:
     Versions& versions_;
     const Context& context_;
     std::vector<std::int64_t> current_;
-    std::vector<std::uint8_t> is_locked_;  ///< of each point: do triangles of several groups have it?
+    Array<std::uint8_t> is_locked_;  ///< of each point: do triangles of several groups have it?
 };
 
 }  // namespace isoatlas

@@ -39,7 +39,7 @@ void order_clusters(ClusterHierarchy& hierarchy) {
 }
 
 void order_points(Surface& surface) {
-    std::vector<std::int64_t> place(surface.points.size(), -1), order;
+    Array<std::int64_t> place(surface.points.size(), -1), order;
     for (auto& triangle : surface.triangles) {
         for (std::int64_t& point : triangle) {
             std::int64_t& found = place[static_cast<std::size_t>(point)];

@@ -15,7 +15,7 @@ void add_ball(ClusterGroup& group, const Vec3& centre, double radius) {
 
 }  // namespace
 
-std::vector<std::size_t> split_in_clusters(Triangles& triangles, std::int64_t max, std::span<const Vec3> points) {
+std::vector<std::size_t> split_in_clusters(std::span<TriangleCorners> triangles, std::int64_t max, std::span<const Vec3> points) {
     const auto centre = [&](const TriangleCorners& t, std::size_t axis) {
         return points[static_cast<std::size_t>(t[0])][axis] + points[static_cast<std::size_t>(t[1])][axis] +
                points[static_cast<std::size_t>(t[2])][axis];
@@ -55,7 +55,7 @@ Versions::Versions(ClusterHierarchy& hierarchy, const SurfaceFrame& frame, const
     Surface& surface = hierarchy_.surface;
     Array<std::uint16_t> faces = frame.faces();
     mark_rims(CollapsibleMesh(surface.triangles, surface.points.size()), faces);
-    faces_.assign(faces.begin(), faces.end());
+    faces_ = std::move(faces);
     BoundingBox all;
     double all_area = 0;
     for (const Vec3& p : scaled_) all.add(p);
@@ -63,24 +63,31 @@ Versions::Versions(ClusterHierarchy& hierarchy, const SurfaceFrame& frame, const
     const double cell =
         std::sqrt(static_cast<double>(options.triangles * options.clusters) * all_area / static_cast<double>(surface.triangles.size()));
     places_.clear(all, std::max(cell, frame.step()));
+    if (parts.empty()) {
+        add_clusters(0, -1);
+        return;
+    }
     surface.triangles.clear();
-    for (const Triangles& part : parts) add_clusters(part, -1);
+    for (const Triangles& part : parts) {
+        const std::size_t first = surface.triangles.size();
+        surface.triangles.insert(surface.triangles.end(), part.begin(), part.end());
+        add_clusters(first, -1);
+    }
 }
 
-void Versions::add_clusters(Triangles triangles, std::int64_t made_by) {
+void Versions::add_clusters(std::size_t first, std::int64_t made_by) {
+    const std::span<TriangleCorners> triangles = std::span(hierarchy_.surface.triangles).subspan(first);
     const std::vector<std::size_t> begins = split_in_clusters(triangles, max_triangles_, scaled_);
-    Surface& surface = hierarchy_.surface;
     for (std::size_t i = 0; i + 1 < begins.size(); ++i) {
         BoundingBox box;
         for (std::size_t t = begins[i]; t < begins[i + 1]; ++t) box.add(box_of(triangles[t]));
         const auto number = static_cast<std::int64_t>(hierarchy_.clusters.size());
-        hierarchy_.clusters.push_back({.first_triangle = static_cast<std::int64_t>(surface.triangles.size() + begins[i]),
+        hierarchy_.clusters.push_back({.first_triangle = static_cast<std::int64_t>(first + begins[i]),
                                        .triangles = static_cast<std::int64_t>(begins[i + 1] - begins[i]),
                                        .made_by = made_by});
         boxes_.push_back(box);
         places_.add(static_cast<std::uint32_t>(number), box);
     }
-    surface.triangles.insert(surface.triangles.end(), triangles.begin(), triangles.end());
 }
 
 std::int64_t Versions::add_group(std::span<const std::int64_t> clusters) {
@@ -122,11 +129,12 @@ void Versions::replace(std::int64_t group, const Replacement& by) {
         if (!surface.object.empty()) surface.object.push_back(std::int64_t{surface.object[like]});
         if (!surface.contour.empty()) surface.contour.push_back(std::int64_t{surface.contour[like]});
     }
-    Triangles triangles = by.triangles;
-    for (TriangleCorners& t : triangles) {
+    const std::size_t first_triangle = surface.triangles.size();
+    for (TriangleCorners t : by.triangles) {
         for (std::int64_t& point : t) point = point < 0 ? first - 1 - point : point;
+        surface.triangles.push_back(t);
     }
-    add_clusters(std::move(triangles), group);
+    add_clusters(first_triangle, group);
 }
 
 /// Of each group: is it replaced wherever this one is?

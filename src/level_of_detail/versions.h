@@ -33,6 +33,7 @@ struct Replacement {
 class Versions {
 public:
     /// The exact surface in clusters, none of triangles of several parts; its points marked with the faces of the volume and the rims.
+    /// parts: the triangles of the surface; empty: all are one part.
     Versions(ClusterHierarchy& hierarchy, const SurfaceFrame& frame, const ClusterOptions& options, std::span<const Triangles> parts);
 
     [[nodiscard]] std::span<const TriangleCorners> triangles_of(const Cluster& cluster) const {
@@ -61,20 +62,22 @@ public:
     [[nodiscard]] Triangles beside(std::int64_t group, const BoundingBox& box) const;
 
 private:
-    void add_clusters(Triangles triangles, std::int64_t made_by);
+    /// Of the last triangles of the surface, from `first` on.
+    void add_clusters(std::size_t first, std::int64_t made_by);
     [[nodiscard]] std::vector<std::uint8_t> replaced_with(std::int64_t group) const;
 
     ClusterHierarchy& hierarchy_;
     const SurfaceFrame& frame_;
     const std::int64_t max_triangles_;  ///< of a cluster
-    std::vector<Vec3> scaled_;
-    std::vector<std::uint16_t> faces_;
+    Array<Vec3> scaled_;
+    Array<std::uint16_t> faces_;
     std::vector<BoundingBox> boxes_;  ///< of each cluster, scaled
     TriangleGrid places_;             ///< of the clusters
 };
 
 /// Cuts triangles into clusters of at most `max`: in halves along the widest axis, until they are small enough. Orders the
 /// triangles; returns where each cluster begins, and the end.
-[[nodiscard]] std::vector<std::size_t> split_in_clusters(Triangles& triangles, std::int64_t max, std::span<const Vec3> points);
+[[nodiscard]] std::vector<std::size_t> split_in_clusters(std::span<TriangleCorners> triangles, std::int64_t max,
+                                                         std::span<const Vec3> points);
 
 }  // namespace isoatlas

@@ -8,6 +8,7 @@
 
 #include "atlas/access.h"
 #include "atlas/build_folder.h"
+#include "base/memory_limit.h"
 #include "base/phase.h"
 #include "field/voxel_positions.h"
 #include "formats/common/file_access.h"
@@ -24,6 +25,7 @@ namespace isoatlas {
 namespace {
 
 constexpr std::string_view kKeys = "surfaces/";
+constexpr std::int64_t kTriangleBytes = 400;  ///< of memory, while its levels are made
 constexpr Phase kMake = only_phase("make levels");
 
 [[noreturn]] void refuse(const std::string& path, const char* what, const char* next) {
@@ -131,11 +133,15 @@ Context part_of_progress(const Context& context, std::size_t i, std::size_t coun
     return own;
 }
 
-void make_part(const Atlas& atlas, const LevelsKey& key, const std::string& path, const Context& context) {
+void make_part(const Atlas& atlas, const LevelsKey& key, const std::string& path, const std::string& scratch_folder,
+               const Context& context) {
     SurfaceOptions options;
     (key.is_contour ? options.contours : options.objects) = {key.voxel};
-    const Surface surface = atlas.extract(key.tau, options, context);
-    const ClusterHierarchy hierarchy = make_clusters(surface, atlas.info().geometry, atlas.info().extent, {}, context);
+    Surface surface = atlas.extract(key.tau, options, context);
+    atlas.clear_cache();
+    const std::int64_t half = available_memory() / 2;
+    const MemoryLimit limit(std::ssize(surface.triangles) > half / kTriangleBytes ? half : 0, scratch_folder);
+    const ClusterHierarchy hierarchy = make_clusters(std::move(surface), atlas.info().geometry, atlas.info().extent, {}, context);
     std::vector<PackedArray> arrays = arrays_of(std::vector<LevelsKey>{key});
     std::ranges::move(arrays_of(hierarchy, surface_prefix(0)), std::back_inserter(arrays));
     pack_store(path, contents_of_part(atlas, key), arrays);
@@ -174,7 +180,7 @@ struct Levels::Data {
 };
 
 std::vector<PreparedLevels> make_levels(const Atlas& atlas, const std::string& path, std::span<const LevelsKey> surfaces,
-                                        const Context& context) {
+                                        const LevelsOptions& options, const Context& context) {
     const EnvironmentScope scope(context);
     if (atlas.info().extent.rank != 3) {
         throw Error(ErrorKind::unsupported, {.file = AtlasAccess::store(atlas).path(),
@@ -182,6 +188,7 @@ std::vector<PreparedLevels> make_levels(const Atlas& atlas, const std::string& p
                                              .next = "extract writes them as they are"});
     }
     BuildFolder folder(path, false);
+    const MemoryLimit limit(options.memory, folder.path());
     std::unique_ptr<const Container> before;
     std::vector<LevelsKey> keys;
     if (file_exists(path)) {
@@ -199,7 +206,7 @@ std::vector<PreparedLevels> make_levels(const Atlas& atlas, const std::string& p
         std::string why_not;
         std::unique_ptr<const Container> part = folder.finished(name, contents_of_part(atlas, keys[i]), why_not);
         if (!part) {
-            make_part(atlas, keys[i], folder.file(name), part_of_progress(context, i - held, keys.size() - held));
+            make_part(atlas, keys[i], folder.file(name), folder.path(), part_of_progress(context, i - held, keys.size() - held));
             part = std::make_unique<const Container>(folder.file(name));
         }
         parts.push_back(std::move(part));

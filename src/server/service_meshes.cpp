@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include "formats/common/byte_writer.h"
 #include "isoatlas/isovalue.h"
@@ -30,20 +31,37 @@ const NamedEntry* first_of(const StoreCatalogue& known) {
     return known.entries.empty() || known.entries.front().is_cavity ? nullptr : &known.entries.front();
 }
 
-/// eye=X,Y,Z&pixel=WIDTH; nothing: without them.
+/// NAME=X,Y,Z; nothing: without it.
+std::optional<Vec3> vector_of(QueryParameters& words, const char* name) {
+    const std::vector<std::string_view> numbers = words.items(name, 3);
+    if (numbers.empty()) return std::nullopt;
+    Vec3 vector;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        const std::string_view text = axis < numbers.size() ? numbers[axis] : "";
+        const std::optional<double> at = whole_text_as<double>(text);
+        if (!at || !std::isfinite(*at)) refuse_parameter(name, text, "three finite numbers: " + std::string(name) + "=X,Y,Z");
+        vector[axis] = *at;
+    }
+    return vector;
+}
+
+/// eye=X,Y,Z&pixel=WIDTH and perhaps towards=X,Y,Z&angle=DEGREES; nothing: without them.
 std::optional<Viewpoint> viewpoint_of(QueryParameters& words, const Geometry& geometry) {
-    const std::vector<std::string_view> numbers = words.items("eye", 3);
-    const std::optional<double> pixel = words.number("pixel", std::numeric_limits<double>::min());
-    if (numbers.empty() && !pixel) return std::nullopt;
-    if (numbers.size() != 3 || !pixel)
+    constexpr double kHalfTurn = 180;
+    constexpr double kPositive = std::numeric_limits<double>::min();
+    const std::optional<Vec3> eye = vector_of(words, "eye"), towards = vector_of(words, "towards");
+    const std::optional<double> pixel = words.number("pixel", kPositive), angle = words.number("angle", kPositive);
+    if (!eye && !pixel && !towards && !angle) return std::nullopt;
+    if (!eye || !pixel)
         throw Error(ErrorKind::usage,
                     {.where = "eye", .what = "a view has an eye and the width of a pixel", .next = "add eye=X,Y,Z&pixel=WIDTH"});
-    Viewpoint from{.pixel = *pixel, .near = std::ranges::min(geometry.spacing)};
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-        const std::optional<double> at = whole_text_as<double>(numbers[axis]);
-        if (!at || !std::isfinite(*at)) refuse_parameter("eye", numbers[axis], "a finite number");
-        from.eye[axis] = *at;
-    }
+    if (towards.has_value() != angle.has_value())
+        throw Error(ErrorKind::usage,
+                    {.where = "towards", .what = "a direction of view has an angle", .next = "add towards=X,Y,Z&angle=DEGREES"});
+    if (towards && std::ranges::count(*towards, 0.0) == 3) refuse_parameter("towards", "0,0,0", "a direction");
+    if (angle && !(*angle < kHalfTurn)) refuse_parameter("angle", number_text(*angle), "less than 180 degrees");
+    Viewpoint from{.eye = *eye, .pixel = *pixel, .near = std::ranges::min(geometry.spacing)};
+    if (towards) from.towards = *towards, from.half_angle = *angle / kHalfTurn * std::numbers::pi / 2;
     return from;
 }
 

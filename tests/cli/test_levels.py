@@ -94,7 +94,14 @@ class Levels(CliTest):
             far, one_pixel, _ = seen("&eye=0,0,1e6&pixel=0.001", budget)
             self.assertLess(far, near)
             self.assertLessEqual(one_pixel, 1)
-            for wrong in ("&eye=0,0,0", "&pixel=1", "&eye=0,0&pixel=1", "&eye=0,0,x&pixel=1", "&eye=0,0,0&pixel=0"):
+            towards = "&eye=-100,-100,-100&pixel=0.0003&angle=40&towards="
+            ahead, seen_pixels, _ = seen(towards + "1,1,1", surface["triangles"] - 1)
+            behind, _, _ = seen(towards + "-1,-1,-1", surface["triangles"] - 1)
+            self.assertLess(behind, ahead)  # what is not seen may be coarser
+            self.assertLessEqual(seen_pixels, 1)
+            for wrong in ("&eye=0,0,0&pixel=1&towards=1,0,0", "&eye=0,0,0&pixel=1&angle=40", "&towards=1,0,0&angle=40",
+                          "&eye=0,0,0&pixel=1&towards=0,0,0&angle=40", "&eye=0,0,0&pixel=1&towards=1,0,0&angle=180",
+                          "&eye=0,0,0", "&pixel=1", "&eye=0,0&pixel=1", "&eye=0,0,x&pixel=1", "&eye=0,0,0&pixel=0"):
                 self.assertEqual(viewer.ask(f"/api/surface?tau=0.5&max=9{wrong}")[0], 400, wrong)
         finally:
             viewer.stop()

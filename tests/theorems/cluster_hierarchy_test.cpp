@@ -3,13 +3,12 @@
 #include <rapidcheck/gtest.h>
 
 #include <algorithm>
-#include <cstdlib>
-#include <filesystem>
 #include <iostream>
 #include <random>
 
 #include "isoatlas/cluster_hierarchy.h"
 #include "oracle/coarse_surfaces.h"
+#include "oracle/shared_surfaces.h"
 
 namespace oracle {
 namespace {
@@ -67,6 +66,10 @@ void every_view_has_the_same_contours_within_its_distance() {
     if (hierarchy.groups.empty()) return;
     isoatlas::Viewpoint from{.pixel = 0.01, .near = 0.5};
     for (double& x : from.eye) x = *rc::gen::inRange(-20, 40);
+    if (*rc::gen::arbitrary<bool>()) {
+        from.half_angle = *rc::gen::inRange(1, 15) / 10.0;
+        from.towards = {1.0, static_cast<double>(*rc::gen::inRange(-3, 4)), static_cast<double>(*rc::gen::inRange(-3, 4))};
+    }
     const std::vector<double> pixels = pixels_of_groups(hierarchy, from);
     for (std::size_t i = 0; i < pixels.size(); ++i) {
         for (const std::int64_t part : hierarchy.groups[i].made_of) RC_ASSERT(pixels[static_cast<std::size_t>(part)] <= pixels[i]);
@@ -176,33 +179,12 @@ TEST(ClusterHierarchies, OfDifficultShapesHold) {
     for (const Shape& shape : kShapes) check_choices(shape.name, volume_of(shape), shape.tau, 3, 1);
 }
 
-/// Eleven surfaces of real volumes; ISOATLAS_ALL_DATA=1: 1000 choices of each instead of a few of the small ones.
+/// ISOATLAS_ALL_DATA=1: 1000 choices of each surface.
 TEST(ClusterHierarchies, OfSharedVolumesHold) {
-    struct Named {
-        const char* volume;
-        double tau;
-        bool is_small;
-    };
-    constexpr std::array<Named, 11> kSurfaces{{{"fuel", 50, true},
-                                               {"neghip", 60, true},
-                                               {"neghip", 120, true},
-                                               {"headsq", 500, false},
-                                               {"headsq", 1200, false},
-                                               {"tooth", 500, false},
-                                               {"tooth", 1000, false},
-                                               {"engine", 80, false},
-                                               {"engine", 150, false},
-                                               {"bonsai", 40, false},
-                                               {"bonsai", 120, false}}};
-    const std::filesystem::path data = std::filesystem::path(ISOATLAS_SOURCE_DIR).parent_path() / "shared" / "data";
-    if (!std::filesystem::is_directory(data)) GTEST_SKIP() << "no shared data beside the checkout";
-    const bool all = std::getenv("ISOATLAS_ALL_DATA") != nullptr;
-    for (const Named& named : kSurfaces) {
-        if (!all && !named.is_small) continue;
-        const std::string name = named.volume;
-        const auto reader = isoatlas::open_volume((data / name / (name + ".nrrd")).string(), {});
-        check_choices(named.volume, load_volume(*reader), named.tau, all ? 1000 : 4, 7);
-    }
+    const bool are_there = for_shared_surfaces(4, 1000, [](const SharedSurface& of, const isoatlas::Volume& volume, int choices) {
+        check_choices(of.volume, volume, of.tau, choices, 7);
+    });
+    if (!are_there) GTEST_SKIP() << "no shared data beside the checkout";
 }
 
 RC_GTEST_PROP(ClusterHierarchies, EveryChoiceHasTheSameContoursWithinItsDistance, ()) {

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iostream>
 #include <limits>
 #include <set>
 
@@ -13,6 +14,7 @@
 #include "levelset/high_bits.h"
 #include "octree_front/front_mesh.h"
 #include "oracle/coarse_surfaces.h"
+#include "oracle/shared_surfaces.h"
 
 namespace oracle {
 namespace {
@@ -134,20 +136,22 @@ void fronts_have_the_same_bytes_for_any_threads() {
 }
 
 /// Leaves of any sizes: those that a coin keeps.
-void every_choice_of_leaves_is_a_front() {
-    const CoarseCase c;
-    RC_PRE(c.exact.closed && !c.exact.triangles.empty());
-    const isoatlas::HighBits high = classify(c.volume, c.exact.tau, {});
-    const isoatlas::TauLevel level{c.volume, c.exact.tau, high};
-    const CoalescibleBlocks blocks(high, *rc::gen::inRange(1, 5), {});
-    const std::uint64_t seed = *rc::gen::arbitrary<std::uint64_t>();
-    const double kept = *rc::gen::element(0.2, 0.5, 0.8);
+struct CoinFront {
+    int max_level;
+    std::uint64_t seed;
+    double kept;  ///< the probability
+};
+
+Surface front_of(const isoatlas::Volume& volume, double tau, isoatlas::Interpolant interpolant, const CoinFront& coin) {
+    const isoatlas::HighBits high = classify(volume, tau, {});
+    const isoatlas::TauLevel level{volume, tau, high};
+    const CoalescibleBlocks blocks(high, coin.max_level, {});
     const isoatlas::FrontLeaves leaves(blocks,
                                        [&](const FrontLeaf& leaf) {
                                            const isoatlas::Index3& b = leaf.block;
                                            return hashed(static_cast<double>(b[0]) + 0.5 * leaf.level,
-                                                         static_cast<double>(b[1]) + static_cast<double>(seed % 1000),
-                                                         static_cast<double>(b[2])) < kept;
+                                                         static_cast<double>(b[1]) + static_cast<double>(coin.seed % 1000),
+                                                         static_cast<double>(b[2])) < coin.kept;
                                        },
                                        {});
     std::vector<isoatlas::RowFans> fans(static_cast<std::size_t>(leaves.rows()));
@@ -155,14 +159,41 @@ void every_choice_of_leaves_is_a_front() {
     Surface front;
     front.closed = true;
     isoatlas::ExtractOptions how;
-    how.interpolant = c.exact.interpolant;
+    how.interpolant = interpolant;
     how.surface.ids = false;
     visit_grid(level.volume, [&]<class T>(const isoatlas::SampleGrid<T>& grid) {
         isoatlas::FrontMesh<T>(level, grid, leaves, how, {}, nullptr).write(fans, front);
     });
+    return front;
+}
+
+void every_choice_of_leaves_is_a_front() {
+    const CoarseCase c;
+    RC_PRE(c.exact.closed && !c.exact.triangles.empty());
+    const CoinFront coin{*rc::gen::inRange(1, 5), *rc::gen::arbitrary<std::uint64_t>(), *rc::gen::element(0.2, 0.5, 0.8)};
+    const Surface front = front_of(c.volume, c.exact.tau, c.exact.interpolant, coin);
     RC_ASSERT(component_numbers(front) == component_numbers(c.exact));
     const std::string failure = front_failure(front, c.exact, c.volume.info, kInfinity);
     if (!failure.empty()) RC_FAIL(failure);
+}
+
+/// ISOATLAS_ALL_DATA=1: 100 fronts of each surface.
+TEST(OctreeFronts, OfSharedVolumesHold) {
+    const bool are_there = for_shared_surfaces(4, 100, [](const SharedSurface& of, const isoatlas::Volume& volume, int fronts) {
+        const Surface exact = isoatlas::extract(volume, of.tau);
+        std::size_t least = exact.triangles.size();
+        for (int i = 0; i < fronts; ++i) {
+            constexpr std::array kKept{1.0, 0.5, 0.8, 0.2};
+            const CoinFront coin{1 + i % 5, static_cast<std::uint64_t>(i), kKept[static_cast<std::size_t>(i) % kKept.size()]};
+            const Surface front = front_of(volume, of.tau, exact.interpolant, coin);
+            least = std::min(least, front.triangles.size());
+            EXPECT_EQ(component_numbers(front), component_numbers(exact)) << of.volume << " at " << of.tau << ", front " << i;
+            EXPECT_EQ(front_failure(front, exact, volume.info, kInfinity), "") << of.volume << " at " << of.tau << ", front " << i;
+        }
+        std::cout << of.volume << " at " << of.tau << ": " << exact.triangles.size() << " -> " << least << " triangles, " << fronts
+                  << " fronts\n";
+    });
+    if (!are_there) GTEST_SKIP() << "no shared data beside the checkout";
 }
 
 TEST(OctreeFronts, AreCoarserWithEachLevel) {

@@ -57,6 +57,14 @@ export class Served {
     return Served.begin(folder, name, [], extension);
   }
 
+  /** An existing store, with the levels of detail beside it or without them. */
+  static async store(path: string, hasLevels = true): Promise<Served> {
+    const folder = mkdtempSync(join(tmpdir(), "isoatlas-viewer-"));
+    const name = basename(path, ".atlas");
+    for (const file of hasLevels ? [".atlas", ".atlas.lod"] : [".atlas"]) symlinkSync(path.replace(/\.atlas$/, file), join(folder, name + file));
+    return Served.begin(folder, name, [], ".atlas");
+  }
+
   private static async begin(folder: string, name: string, options: string[] = [], extension = ".nrrd"): Promise<Served> {
     const token = crypto.randomUUID().replaceAll("-", "");
     const { server, address } = await started(folder, token, [name + extension, ...options]);

@@ -143,7 +143,7 @@ describe("large surfaces with levels of detail", () => {
       },
       abort: () => undefined,
     } as unknown as Api;
-    const eye = { at: [1, 2, 3], pixel: 0.01 };
+    const eye = { at: [1, 2, 3], pixel: 0.01, towards: [0, 1, 0], angle: 40 };
     const surfaces = new Surfaces(
       api,
       () => undefined,
@@ -162,9 +162,37 @@ describe("large surfaces with levels of detail", () => {
     surfaces.request(0, request(1), false);
     await surfaces.settled();
     expect(asked.slice(2)).toEqual(["1 at most 1000000 from 4,5,6"]);
+    eye.towards = [1, 0, 0]; // what comes into the view was coarse
+    surfaces.request(0, request(1), false);
+    await surfaces.settled();
+    expect(asked.slice(3)).toEqual(["1 at most 1000000 from 4,5,6"]);
     surfaces.request(1, request(1), false); // they share what may be drawn
     await surfaces.settled();
-    expect(asked.slice(3)).toEqual(["1 at most 20000", "1 at most 500000 from 4,5,6"]);
+    expect(asked.slice(4)).toEqual(["1 at most 20000", "1 at most 500000 from 4,5,6"]);
+  });
+  it("are exact at last where the coarse one was no level", async () => {
+    const asked: string[] = [];
+    const api = {
+      surface: (_: string, __: number, ___: unknown, most: number, ____: unknown, eye?: Eye) => {
+        asked.push(`at most ${most}${eye ? " from there" : ""}`);
+        return Promise.resolve({ triangles: most, bytes: 9, coarse: most <= 1_000_000, ...(most <= 1_000_000 && { within: 2 }) } as Mesh);
+      },
+      abort: () => undefined,
+    } as unknown as Api;
+    const eye = { at: [1, 2, 3], pixel: 0.01, towards: [0, 1, 0], angle: 40 };
+    const surfaces = new Surfaces(
+      api,
+      () => undefined,
+      () => undefined,
+      () => ({ ...eye }),
+    );
+    surfaces.request(0, request(1), false);
+    await surfaces.settled();
+    expect(asked).toEqual(["at most 20000", "at most 1000000 from there", "at most 100000000"]);
+    expect(surfaces.loadStateOf(0)).toMatchObject({ coarse: false, within: null, triangles: 100_000_000 });
+    eye.at = [4, 5, 6];
+    surfaces.request(0, request(1), false);
+    expect(asked.length).toBe(3);
   });
 });
 

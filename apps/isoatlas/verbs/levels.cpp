@@ -39,7 +39,7 @@ File make_file(const Arguments& arguments, Source& source, Polarity polarity, co
     }
     File file{.path = arguments.output.empty() ? levels_path(arguments.file, polarity) : arguments.output, .polarity = polarity};
     if (keys.empty()) return file;
-    file.surfaces = make_levels(source.atlas(), file.path, keys, source.context());
+    file.surfaces = make_levels(source.atlas(), file.path, keys, {.memory = arguments.memory}, source.context());
     file.bytes = static_cast<std::int64_t>(std::filesystem::file_size(file.path));
     return file;
 }

@@ -11,6 +11,7 @@
 #include <set>
 
 #include "isoatlas/build.h"
+#include "isoatlas/environment.h"
 #include "isoatlas/phantom.h"
 #include "oracle/stores.h"
 
@@ -120,6 +121,8 @@ TEST_F(LevelsOfStores, AreFineWhereTheEyeIsNear) {
         }
     }
     EXPECT_THROW((void)levels.seen_from(0, {.eye = {}, .pixel = 0, .near = 1}, 1, 9), Error);
+    EXPECT_THROW((void)levels.seen_from(0, {.eye = {}, .pixel = 1, .near = 1, .half_angle = 1}, 1, 9), Error);  // no direction
+    EXPECT_THROW((void)levels.seen_from(0, {.eye = {}, .pixel = 1, .near = 1, .towards = {1, 0, 0}, .half_angle = 1.6}, 1, 9), Error);
     EXPECT_THROW((void)levels.seen_from(0, {.eye = {}, .pixel = 1, .near = 1}, 0, 9), Error);
 }
 
@@ -127,7 +130,7 @@ TEST_F(LevelsOfStores, HaveTheSameBytesHoweverTheyAreMade) {
     const std::string path = levels_path(path_);
     Context one;
     one.threads = 1;
-    (void)make_levels(*atlas_, path, keys_, one);
+    (void)make_levels(*atlas_, path, keys_, {}, one);
     const std::string bytes = bytes_of(path);
     std::filesystem::remove(path);
 
@@ -136,12 +139,16 @@ TEST_F(LevelsOfStores, HaveTheSameBytesHoweverTheyAreMade) {
     interrupted.threads = 2;
     interrupted.progress = [&](const Progress& progress) { stops = stops || progress.fraction > 0.6; };  // in the second surface
     interrupted.cancelled = [&] { return stops; };
-    EXPECT_THROW((void)make_levels(*atlas_, path, keys_, interrupted), Error);
+    EXPECT_THROW((void)make_levels(*atlas_, path, keys_, {}, interrupted), Error);
     EXPECT_FALSE(std::filesystem::exists(path));
     EXPECT_TRUE(std::filesystem::is_directory(path + ".build"));
     (void)make_levels(*atlas_, path, keys_);
     EXPECT_EQ(bytes_of(path), bytes);
     EXPECT_FALSE(std::filesystem::exists(path + ".build"));
+    std::filesystem::remove(path);
+
+    (void)make_levels(*atlas_, path, keys_, {.memory = isoatlas::kMinMemory});
+    EXPECT_EQ(bytes_of(path), bytes);
     std::filesystem::remove(path);
 
     (void)make_levels(*atlas_, path, std::span(keys_).first(1));

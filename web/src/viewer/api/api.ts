@@ -10,10 +10,13 @@ import { decodeMesh, type Mesh } from "../../shared/wire";
 /** Target of a surface: the object that contains a voxel, the wall of a cavity, or the whole isosurface. */
 export type SurfaceTarget = ({ object: number } | { contour: number }) & { polarity?: Polarity } | null;
 
-/** From where a scene is seen: a point, and how wide a pixel is at a distance of 1. */
+/** From where a scene is seen: a point, how wide a pixel is at a distance of 1, and the cone around the picture. */
 export interface Eye {
   at: readonly number[];
   pixel: number;
+  towards: readonly number[];
+  /** of the whole cone, degrees */
+  angle: number;
 }
 
 /** of requests about objects of low values of a page of both */
@@ -339,7 +342,7 @@ function inUnit(unit: string | null): string {
 }
 
 function seenFrom(eye?: Eye): string {
-  return eye ? `&eye=${eye.at.join(",")}&pixel=${eye.pixel}` : "";
+  return eye ? `&eye=${eye.at.join(",")}&pixel=${eye.pixel}&towards=${eye.towards.join(",")}&angle=${eye.angle}` : "";
 }
 
 function shell(walls: ShellFilter): string {

@@ -59,6 +59,8 @@ class Channel {
   next: SurfaceRequest | null = null;
   /** of the last mesh: from where it is seen */
   eye = "";
+  /** of that surface: a coarse one was no level of detail, so that it is not finer where the eye is near */
+  hasNoLevels = "";
   loadState = NONE;
 }
 
@@ -138,7 +140,8 @@ export class Surfaces {
   private meshOf(entry: number, { tau, target, walls }: SurfaceRequest, maxTriangles: number): Promise<Mesh> {
     const channel = this.channels.get(entry) as Channel;
     if (this.asPoints && maxTriangles === FULL) return this.api.points(channelName(entry), tau, target, DIVISIONS, walls);
-    const eye = maxTriangles === FULL && channel.loadState.within !== null ? this.eye() : undefined; // it has levels of detail
+    const mayHaveLevels = channel.loadState.within !== null && channel.hasNoLevels !== channel.key;
+    const eye = maxTriangles === FULL && mayHaveLevels ? this.eye() : undefined;
     if (!eye) return this.api.surface(channelName(entry), tau, target, maxTriangles, walls);
     channel.eye = JSON.stringify(eye);
     return this.api.surface(channelName(entry), tau, target, Math.floor(SEEN / this.channels.size), walls, eye);
@@ -153,8 +156,13 @@ export class Surfaces {
         channel.requested = maxTriangles;
         channel.loadState = { ...channel.loadState, waiting: true };
         this.onUpdate(entry);
-        const mesh = await this.meshOf(entry, request, maxTriangles);
+        let mesh = await this.meshOf(entry, request, maxTriangles);
         if (isStale()) return;
+        if (maxTriangles === FULL && mesh.coarse && mesh.pixels === undefined && channel.hasNoLevels !== key) {
+          channel.hasNoLevels = key; // coarse by blocks of cells: then the exact surface
+          mesh = await this.meshOf(entry, request, maxTriangles);
+          if (isStale()) return;
+        }
         const isLast = mesh.isOpen || mesh.pixels !== undefined || !(mesh.coarse || this.asPoints); // coarse triangles first, then points
 
         channel.loadState = {

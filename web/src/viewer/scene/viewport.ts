@@ -138,10 +138,12 @@ export class Viewport {
   /** From where the scene is seen; of parallel rays from far away. */
   get eye(): Eye {
     const { view, height, forward, isFlat, labelUnit, camera } = this.rig;
-    const rows = Math.max(1, this.canvas.height);
-    if (!isFlat) return { at: view.slice(0, 3), pixel: labelUnit / camera.zoom / rows };
-    const away = FAR * height;
-    return { at: view.slice(3).map((x, i) => x - away * forward[i]!), pixel: height / rows / away };
+    const [rows, aspect] = [Math.max(1, this.canvas.height), this.canvas.width / Math.max(1, this.canvas.height)];
+    const away = isFlat ? FAR * height : 1;
+    const high = isFlat ? height : labelUnit / camera.zoom; // of the picture, that far away
+    const at = isFlat ? view.slice(3).map((x, i) => x - away * forward[i]!) : view.slice(0, 3);
+    const angle = (360 / Math.PI) * Math.atan((high / 2) * Math.hypot(1, aspect) / away); // of its corners
+    return { at, pixel: high / rows / away, towards: forward, angle: Math.min(angle, 179) };
   }
 
   /** Fits all visible surfaces to the view. */
