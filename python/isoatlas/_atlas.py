@@ -10,6 +10,7 @@ import numpy as np
 from . import _arrays, _core, _html, _names, _persistence
 from ._calls import Progress, call
 from ._evolution import save_evolution as _save_evolution
+from ._levels import save_levels as _save_levels
 from ._mesh import Array, Check, Mesh, Path, checked
 from ._objects import Object, Table
 from ._tree import Spectrum, Tree
@@ -233,7 +234,7 @@ class Atlas:
 
     def surface(self, tau: float, *, objects: Sequence[int] = (), contours: Sequence[int] = (), boundary: str = "closed",
                 style: str = "compact", shell: str = "all", normals: bool = True, ids: bool = True, simplify: Optional[float] = None,
-                triangles: int = 0, progress: Progress = None, threads: int = 0) -> Mesh:
+                triangles: int = 0, octree: int = 0, progress: Progress = None, threads: int = 0) -> Mesh:
         """The surface at an isovalue, a closed mesh with points (x, y, z); of 2D volumes closed curves.
 
         Parameters
@@ -257,6 +258,8 @@ class Atlas:
             Fewer triangles, at most so many voxels from the exact surface, and back, with the same topology.
         triangles : int
             Simplify to this number of triangles, not fewer; without ``simplify`` at any distance.
+        octree : int
+            Coarse at once, with the same topology: blocks of 2, 4, 8, 16 or 32 cells where the surface is one disk are a fan of triangles.
 
         Raises
         ------
@@ -264,16 +267,18 @@ class Atlas:
             tau is outside the range of the samples, or there is no such object or contour.
         """
         return self._extract(self._source.stored(float(tau)), objects=objects, contours=contours, boundary=boundary, style=style, shell=shell,
-                             normals=normals, ids=ids, simplify=simplify, triangles=triangles, progress=progress, threads=threads)
+                             normals=normals, ids=ids, simplify=simplify, triangles=triangles, octree=octree, progress=progress,
+                             threads=threads)
 
     def _extract(self, tau: float, *, objects: Sequence[int] = (), contours: Sequence[int] = (), boundary: str, style: str, shell: str,
-                 normals: bool, ids: bool = True, simplify: Optional[float] = None, triangles: int = 0, progress: Progress,
-                 threads: int) -> Mesh:
+                 normals: bool, ids: bool = True, simplify: Optional[float] = None, triangles: int = 0, octree: int = 0,
+                 progress: Progress, threads: int) -> Mesh:
         chosen = [[int(i) for i in given] for given in (objects, contours)]
         return Mesh(self._source.extract(tau, chosen[0], chosen[1], (boundary, style, shell), normals, ids,
-                                         None if simplify is None else float(simplify), int(triangles), call(progress, threads)))
+                                         None if simplify is None else float(simplify), int(triangles), int(octree), call(progress, threads)))
 
     save_evolution = _save_evolution
+    save_levels = _save_levels
 
     def objects_at(self, tau: float, *, progress: Progress = None, threads: int = 0) -> list[dict[str, Any]]:
         """Every object at an isovalue, the largest first: ``id``, ``voxels``, ``measure``, ``chi``, ``tunnels``, ``cavities``, ``box``

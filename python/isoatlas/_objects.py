@@ -104,15 +104,15 @@ class Object:
         return self._tau if tau is None or tau == self.best_tau else self._atlas._source.stored(tau)
 
     def surface(self, tau: Optional[float] = None, *, boundary: str = "closed", style: str = "compact", shell: str = "all",
-                normals: bool = True, ids: bool = True, simplify: Optional[float] = None, triangles: int = 0, progress: Progress = None,
-                threads: int = 0) -> Mesh:
+                normals: bool = True, ids: bool = True, simplify: Optional[float] = None, triangles: int = 0, octree: int = 0,
+                progress: Progress = None, threads: int = 0) -> Mesh:
         """Its surface, a closed mesh with points (x, y, z); of a cavity its wall.
 
         Parameters
         ----------
         tau : float, optional
             Isovalue instead of the best one: then that of the object at tau which contains the voxel ``id``.
-        boundary, style, shell, normals, ids, simplify, triangles
+        boundary, style, shell, normals, ids, simplify, triangles, octree
             As :meth:`Atlas.surface`.
 
         Raises
@@ -122,7 +122,8 @@ class Object:
         """
         objects, contours = ([], [self.id]) if self.is_cavity else ([self.id], [])
         return self._atlas._extract(self._stored(tau), objects=objects, contours=contours, boundary=boundary, style=style, shell=shell,
-                                    normals=normals, ids=ids, simplify=simplify, triangles=triangles, progress=progress, threads=threads)
+                                    normals=normals, ids=ids, simplify=simplify, triangles=triangles, octree=octree, progress=progress,
+                                    threads=threads)
 
     def mask(self, tau: Optional[float] = None, *, progress: Progress = None, threads: int = 0) -> Array:
         """Which voxels it has: an array of bool in the shape of the volume, (z, y, x)."""

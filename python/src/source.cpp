@@ -69,6 +69,12 @@ Surface Source::extract(double tau, const SurfaceOptions& options, const Context
     return isoatlas::extract(*volume_, tau, {.interpolant = interpolant(), .tunnel_height = tunnel_height(), .surface = options}, context);
 }
 
+FrontSurface Source::extract_front(double tau, const FrontOptions& front, const SurfaceOptions& options, const Context& context) {
+    if (atlas_) return atlas_->extract_front(tau, front, options, context);
+    const ExtractOptions how{.interpolant = interpolant(), .tunnel_height = tunnel_height(), .surface = options};
+    return isoatlas::extract_front(*volume_, tau, front, how, context);
+}
+
 ObjectTable Source::objects(const RankOptions& options, const Context& context) {
     return atlas_ ? atlas_->objects(options, context) : rank_objects(*volume_, *trees(context), options, context);
 }

@@ -13,6 +13,7 @@
 #include <isoatlas/cavities.h>
 #include <isoatlas/cut.h>
 #include <isoatlas/objects.h>
+#include <isoatlas/octree_front.h>
 #include <isoatlas/simplify.h>
 #include <isoatlas/surface.h>
 #include <isoatlas/volume.h>
@@ -40,6 +41,7 @@ public:
 
     [[nodiscard]] Cut cut(double tau, bool label, const Context& context);
     [[nodiscard]] Surface extract(double tau, const SurfaceOptions& options, const Context& context);
+    [[nodiscard]] FrontSurface extract_front(double tau, const FrontOptions& front, const SurfaceOptions& options, const Context& context);
     [[nodiscard]] ObjectTable objects(const RankOptions& options, const Context& context);
     [[nodiscard]] CavityTable cavities(const RankOptions& options, const Context& context);
     [[nodiscard]] BranchHierarchy hierarchy(const Context& context);

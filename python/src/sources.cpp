@@ -1,5 +1,6 @@
 // The class Source: surfaces, cuts and labels at isovalues. Isovalues are stored ones unless a name says "reported".
 #include <algorithm>
+#include <bit>
 #include <limits>
 #include <memory>
 #include <optional>
@@ -9,8 +10,10 @@
 #include <isoatlas/evolution_file.h>
 #include <isoatlas/isovalue.h>
 #include <isoatlas/level_of_detail.h>
+#include <isoatlas/levels.h>
 #include <isoatlas/nested_labels.h>
 #include <isoatlas/output.h>
+#include <isoatlas/polarity.h>
 #include <isoatlas/segmentation.h>
 #include <isoatlas/verify.h>
 
@@ -40,14 +43,29 @@ std::shared_ptr<Source> of_store(const std::string& path, const std::optional<st
     return released([&] { return std::make_shared<Source>(path, options); });
 }
 
+/// Of blocks so many cells wide.
+void require_octree(int cells, bool is_simplified) {
+    if (cells < 2 || cells > 32 || !std::has_single_bit(static_cast<unsigned>(cells))) {
+        throw Error(ErrorKind::usage, {.what = "octree=" + std::to_string(cells), .expected = "2, 4, 8, 16 or 32 cells, or 0"});
+    }
+    if (is_simplified) {
+        throw Error(ErrorKind::usage, {.what = "octree= with simplify= or triangles=", .next = "give one of them"});
+    }
+}
+
 std::shared_ptr<Surface> extract(const std::shared_ptr<Source>& source, double tau, const Indices& objects, const Indices& contours,
                                  const std::tuple<std::string, std::string, std::string>& words, bool normals, bool ids,
-                                 const std::optional<double>& voxels, std::int64_t triangles, const CallOptions& call) {
+                                 const std::optional<double>& voxels, std::int64_t triangles, int octree, const CallOptions& call) {
+    if (octree != 0) require_octree(octree, voxels || triangles > 0);
     SurfaceOptions options;
     const auto& [boundary, style, shell] = words;
     options.boundary = boundary_of(boundary), options.style = style_of(style), options.shell = shell_of(shell);
     options.objects = objects, options.contours = contours, options.normals = normals, options.ids = ids;
     return long_call(call, [=](const Context& context) {
+        if (octree != 0) {
+            const int level = std::countr_zero(static_cast<unsigned>(octree));
+            return std::make_shared<Surface>(source->extract_front(tau, {.max_level = level}, options, context).surface);
+        }
         Surface surface = source->extract(tau, options, context);
         if (voxels || triangles > 0) {
             const SimplificationOptions simplification{.max_distance = voxels.value_or(std::numeric_limits<double>::infinity()),
@@ -85,6 +103,33 @@ void write_evolution(const std::shared_ptr<Source>& source, const std::string& p
         for (std::size_t i = 0; i < taus.size(); ++i) file.add(source->extract(taus[i], options, context_of_step(context, i, taus.size())));
         file.commit();
     });
+}
+
+/// surfaces: voxel, stored isovalue, whether it is a contour. Returns what the file holds, as dicts with stored isovalues.
+py::list save_levels(const std::shared_ptr<Source>& source, const std::string& path,
+                     const std::vector<std::tuple<std::int64_t, double, bool>>& surfaces, const CallOptions& call) {
+    if (!source->is_store()) {
+        throw Error(ErrorKind::usage, {.what = "levels of detail lie beside a store, and this volume has none",
+                                       .next = "isoatlas.build() makes one, isoatlas.open() opens it"});
+    }
+    std::vector<LevelsKey> keys;
+    for (const auto& [voxel, tau, is_contour] : surfaces) keys.push_back({voxel, tau, is_contour});
+    const VolumeInfo& info = source->info();
+    const std::string file = path.empty() ? levels_path(info.path, polarity_of(info)) : path;
+    const std::vector<PreparedLevels> held =
+        long_call(call, [=](const Context& context) { return make_levels(source->atlas(), file, keys, {}, context); });
+    py::list list;
+    for (const PreparedLevels& surface : held) {
+        py::dict dict;
+        dict["id"] = surface.key.voxel;
+        dict["tau"] = info.calibration.reported(surface.key.tau);
+        dict["is_cavity"] = surface.key.is_contour;
+        dict["triangles"] = surface.triangles;
+        dict["coarsest"] = surface.coarsest;
+        dict["distance"] = surface.distance;
+        list.append(dict);
+    }
+    return list;
 }
 
 template <class Entry>
@@ -231,7 +276,8 @@ void add_sources(py::module_& module) {
                  return long_call(call, [=](const Context& context) { return std::const_pointer_cast<Volume>(source->volume(context)); });
              })
         .def("extract", &extract, py::arg("tau"), py::arg("objects"), py::arg("contours"), py::arg("words"), py::arg("normals"),
-             py::arg("ids"), py::arg("simplify"), py::arg("triangles"), py::arg("call"))
+             py::arg("ids"), py::arg("simplify"), py::arg("triangles"), py::arg("octree"), py::arg("call"))
+        .def("save_levels", &save_levels, py::arg("path"), py::arg("surfaces"), py::arg("call"))
         .def("write_evolution", &write_evolution, py::arg("path"), py::arg("taus"), py::arg("words"), py::arg("normals"), py::arg("space"),
              py::arg("call"))
         .def("cut", &cut_at, py::arg("tau"), py::arg("call"))

@@ -70,6 +70,29 @@ def test_simplified_surfaces_have_the_same_euler_number():
         tree = spatial.cKDTree(exact.points)
         assert tree.query(light.points)[0].max() < 0.5 + 1  # of the triangles, not of their corners: at most an edge more
         assert set(light.contour_ids) == set(exact.contour_ids)
+        coarse = atlas.surface(level, octree=8)
+        assert len(coarse) <= len(exact) and euler_number(coarse) == euler_number(exact)
+        assert set(coarse.contour_ids) == set(exact.contour_ids)
+    for wrong in ({"octree": 3}, {"octree": 64}, {"octree": 4, "simplify": 0.5}):
+        with pytest.raises(isoatlas.InputError):
+            atlas.surface(level, **wrong)
+
+
+def test_levels_of_detail_lie_beside_the_store(tmp_path):
+    array = smooth((24, 25, 26), 3)
+    with pytest.raises(isoatlas.InputError, match="store"):
+        isoatlas.open(array).save_levels()
+    isoatlas.build(array, tmp_path / "field.atlas")
+    with isoatlas.open(tmp_path / "field.atlas") as atlas:
+        first, second = atlas.find_objects(2)
+        held, = atlas.save_levels([first])
+        assert (held["id"], held["is_cavity"]) == (first.id, False) and held["tau"] == pytest.approx(first.best_tau)
+        assert held["triangles"] == len(first.surface()) >= held["coarsest"]
+        before = (tmp_path / "field.atlas.lod").read_bytes()
+        assert atlas.save_levels([first]) == [held] and (tmp_path / "field.atlas.lod").read_bytes() == before
+        assert [one["id"] for one in atlas.save_levels([second])] == [first.id, second.id]
+        atlas.save_levels(top=1, path=tmp_path / "other.lod")
+        assert (tmp_path / "other.lod").read_bytes() == before
 
 
 def test_betti_numbers_of_known_shapes():
