@@ -11,9 +11,10 @@ namespace isoatlas {
 /// names that begin with "." are not served, but for the keys of Zarr. Each file has an ETag of its time of change and size.
 class FolderServer {
 public:
-    /// port 0: any that is free. token: what requests must carry as "Authorization: Bearer TOKEN"; empty: nothing.
-    /// Throws Error: input (not a folder), resource (the port is taken).
-    FolderServer(const std::string& folder, int port, const std::string& token = "");
+    /// port 0: any that is free. token: what requests must carry as "Authorization: Bearer TOKEN"; empty: nothing. reader: the site whose
+    /// pages may read the files in a browser (CORS), such as "https://example.org"; "*": those of every site; empty: none.
+    /// Throws Error: usage (reader is not the origin of a site), input (not a folder), resource (the port is taken).
+    FolderServer(const std::string& folder, int port, const std::string& token = "", const std::string& reader = "");
     ~FolderServer();
     FolderServer(const FolderServer&) = delete;
     FolderServer& operator=(const FolderServer&) = delete;

@@ -32,6 +32,16 @@ bool is_local(std::string_view host) {
     return host == "127.0.0.1" || host == "localhost";
 }
 
+/// "https://host" or "http://host", perhaps with a port, as browsers send it; or "*".
+bool is_origin(std::string_view text) {
+    if (text == "*") return true;
+    const std::size_t scheme = text.starts_with("https://") ? 8 : text.starts_with("http://") ? 7 : text.size();
+    const auto fits = [](char c) {
+        return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '.' || c == '-' || c == ':' || c == '[' || c == ']';
+    };
+    return scheme < text.size() && std::ranges::all_of(text.substr(scheme), fits);
+}
+
 /// A part of a response: text, then bytes of the file.
 struct BodyPart {
     std::string text;
@@ -99,9 +109,10 @@ bool send_part(const Peer& peer, File& file, const std::string& path, const Body
 
 class FolderServer::Data {
 public:
-    Data(const std::string& folder, int port, std::string token)
+    Data(const std::string& folder, int port, std::string token, std::string reader)
         : folder_(fs::path(file_system().resolved(folder))),
           token_(std::move(token)),
+          reader_(std::move(reader)),
           network_(port, false,
                    {.at_the_door = [this](const RequestHead& head) { return at_the_door(head); },
                     .refusal = not_served,
@@ -110,7 +121,25 @@ public:
     Network& network() { return network_; }
 
 private:
+    /// May a page of another site read the answer?
+    [[nodiscard]] bool may_read(const RequestHead& head) const {
+        return !head.origin.empty() && (reader_ == "*" || head.origin == reader_);
+    }
+    /// What tells a browser so; a request with more than a range is asked for first, without a token.
+    void allow_reader(const RequestHead& head, ResponseHead& response) const {
+        if (reader_.empty()) return;
+        response.fields.emplace_back("Vary", "Origin");
+        if (!may_read(head)) return;
+        response.fields.emplace_back("Access-Control-Allow-Origin", reader_);
+        response.fields.emplace_back("Access-Control-Expose-Headers", "Accept-Ranges, Content-Length, Content-Range, ETag");
+        if (head.method != "OPTIONS") return;
+        response.fields.emplace_back("Access-Control-Allow-Methods", "GET, HEAD");
+        response.fields.emplace_back("Access-Control-Allow-Headers", "Authorization, Range");
+        response.fields.emplace_back("Access-Control-Allow-Private-Network", "true");
+    }
+
     [[nodiscard]] std::optional<std::string> at_the_door(const RequestHead& head) const {
+        if (head.method == "OPTIONS" && !head.has_body && is_local(head.host) && may_read(head)) return std::nullopt;
         if ((head.method != "GET" && head.method != "HEAD") || head.has_body) return not_served(405);
         if (!is_local(head.host)) return not_served(421);
         if (!token_.empty() && !is_secret(head.authorization, "Bearer " + token_)) return not_served(401);
@@ -130,9 +159,11 @@ private:
     }
 
     bool answer(const RequestHead& head, const Peer& peer) const try {
-        const std::string path = path_of(head.target);
+        const std::string path = head.method == "OPTIONS" ? "" : path_of(head.target);
         if (path.empty()) {
-            const ResponseHead none{.status = 404, .type = "text/plain", .length = 0, .fields = {}, .keep_alive = head.keep_alive};
+            ResponseHead none{.status = 404, .type = "text/plain", .length = 0, .fields = {}, .keep_alive = head.keep_alive};
+            if (head.method == "OPTIONS") none.status = 200, none.type = {};
+            allow_reader(head, none);
             return peer.send(text_of(none)) && head.keep_alive;
         }
         const std::unique_ptr<File> file = open_file(path);
@@ -141,6 +172,7 @@ private:
         FileResponse response =
             response_to(head.range, file->size(), "\"" + std::to_string(time) + "-" + std::to_string(file->size()) + "\"");
         response.head.keep_alive = head.keep_alive;
+        allow_reader(head, response.head);
         if (!peer.send(text_of(response.head), head.method != "HEAD" && *response.head.length > 0)) return false;
         if (head.method == "HEAD") return head.keep_alive;
         for (const BodyPart& part : response.parts) {
@@ -154,14 +186,19 @@ private:
 
     fs::path folder_;
     std::string token_;
+    std::string reader_;  ///< origin of pages that may read; empty: none
     Network network_;
 };
 
-FolderServer::FolderServer(const std::string& folder, int port, const std::string& token) {
+FolderServer::FolderServer(const std::string& folder, int port, const std::string& token, const std::string& reader) {
+    if (!reader.empty() && !is_origin(reader)) {
+        throw Error(ErrorKind::usage, {.what = "\"" + reader + "\" is not the origin of a site",
+                                       .expected = "https://host or http://host:port, without a path; * for every site"});
+    }
     if (!is_directory(folder)) {
         throw Error(ErrorKind::input, {.file = folder, .what = "is not a folder", .next = "name the folder that holds the files"});
     }
-    data_ = std::make_unique<Data>(folder, port, token);
+    data_ = std::make_unique<Data>(folder, port, token, reader);
 }
 FolderServer::~FolderServer() = default;
 std::string FolderServer::address() const { return "http://127.0.0.1:" + std::to_string(port()); }

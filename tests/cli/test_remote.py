@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
 """Files on web servers: the same answers as from a file of this machine, or one message that says what is wrong. Faulty servers included."""
+import contextlib
 import json
 import os
 import random
@@ -237,20 +238,29 @@ class Remote(CliTest):
             done = self.start(["convert", "field.nrrd", "-o", f"{server.address}/x.nrrd"])
             self.assertEqual(done.returncode, 5, done.stderr)
 
-    def test_the_other_side(self):
-        """`isoatlas serve`: whole files, ranges, several ranges; nothing outside of the folder."""
-        (self.folder / "served").mkdir(exist_ok=True)
-        shutil.copy(self.folder / "field.atlas", self.folder / "served")
-        (self.folder / "served" / ".secret").write_text("x")
-        (self.folder / "served" / "link").symlink_to(self.folder / "field.nrrd")
-        process = subprocess.Popen([CLI, "serve", "served", "--json"], cwd=self.folder, stdout=subprocess.PIPE, text=True)
+    @contextlib.contextmanager
+    def serving(self, *arguments):
+        """Its address."""
+        process = subprocess.Popen([CLI, "serve", *arguments, "--json"], cwd=self.folder, stdout=subprocess.PIPE, text=True)
         try:
             text = ""
             while not text.endswith("}\n"):
                 text += process.stdout.readline()
             document = json.loads(text)
             self.assert_schema(document, "serve")
-            address = document["address"]
+            yield document["address"]
+        finally:
+            process.send_signal(signal.SIGINT)
+            self.assertEqual(process.wait(), 0)
+            process.stdout.close()
+
+    def test_the_other_side(self):
+        """`isoatlas serve`: whole files, ranges, several ranges; nothing outside of the folder."""
+        (self.folder / "served").mkdir(exist_ok=True)
+        shutil.copy(self.folder / "field.atlas", self.folder / "served")
+        (self.folder / "served" / ".secret").write_text("x")
+        (self.folder / "served" / "link").symlink_to(self.folder / "field.nrrd")
+        with self.serving("served") as address:
             out = self.folder / "remote.ply"
             self.run_ok("extract", f"{address}/field.atlas", "--tau", "1", "-o", out)
             self.assertEqual(out.read_bytes(), (self.folder / "local.ply").read_bytes())
@@ -272,11 +282,38 @@ class Remote(CliTest):
             with self.assertRaises(urllib.error.HTTPError) as refused:
                 urllib.request.urlopen(strange)
             self.assertEqual(refused.exception.code, 421)
-        finally:
-            process.send_signal(signal.SIGINT)
-            self.assertEqual(process.wait(), 0)
-            process.stdout.close()
         self.run_error(3, "serve", "field.nrrd", says="is not a folder")
+
+    def test_pages_of_a_site_may_read_where_they_are_allowed_to(self):
+        def headers(address, origin, method="GET", path="field.nrrd"):
+            asked = urllib.request.Request(f"{address}/{path}", method=method, headers={"Origin": origin} if origin else {})
+            try:
+                with urllib.request.urlopen(asked) as answer:
+                    return answer.status, answer.headers
+            except urllib.error.HTTPError as refused:
+                return refused.code, refused.headers
+        allowed = "Access-Control-Allow-Origin"
+        (self.folder / "read").mkdir()
+        shutil.copy(self.folder / "field.nrrd", self.folder / "read")
+        site, other = "https://site.example", "https://site.example.org"
+        with self.serving("read", "--allow-origin", site) as address:
+            status, told = headers(address, site)
+            self.assertEqual((status, told[allowed], told["Vary"]), (200, site, "Origin"))
+            self.assertIn("Content-Range", told["Access-Control-Expose-Headers"])
+            self.assertEqual(headers(address, site, path="none")[1][allowed], site)  # so that a page learns of it
+            status, told = headers(address, site, "OPTIONS")
+            self.assertEqual((status, told[allowed], told["Access-Control-Allow-Headers"]), (200, site, "Authorization, Range"))
+            self.assertEqual(headers(address, site, "POST")[0], 405)
+            for stranger in (other, "null", None):
+                status, told = headers(address, stranger)
+                self.assertEqual((status, told[allowed]), (200, None))
+            self.assertEqual(headers(address, other, "OPTIONS")[0], 405)
+        with self.serving("read", "--allow-origin", "*") as address:
+            self.assertEqual(headers(address, other)[1][allowed], "*")
+        with self.serving("read") as address:
+            self.assertEqual([headers(address, site)[1][allowed], headers(address, site, "OPTIONS")[0]], [None, 405])
+        for wrong in ("site.example", "https://", f"{site}/page", "https://a b"):
+            self.run_error(2, "serve", "read", "--allow-origin", wrong, says="not the origin of a site")
 
 
 class FirstPicture(CliTest):

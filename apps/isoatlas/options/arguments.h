@@ -108,8 +108,9 @@ struct Arguments {
     std::optional<double> max_error;     ///< the same, in the unit of the volume
 
     // Server
-    int port = 0;       ///< 0: that of the links of the store, or any
-    std::string scene;  ///< file; empty: none
+    int port = 0;        ///< 0: that of the links of the store, or any
+    std::string reader;  ///< serve: origin of pages that may read
+    std::string scene;   ///< file; empty: none
     bool no_browser = false, read_only = false, new_link = false;
 
     // Output

@@ -179,6 +179,9 @@ void view_options(CLI::App& app, Arguments& arguments, Typed& typed) {
 }
 
 void serve_options(CLI::App& app, Arguments& arguments, Typed& /*typed*/) {
+    app.add_option("--allow-origin", arguments.reader,
+                   "Pages of this site may read the files in a browser (CORS): https://HOST; '*': of every site")
+        ->type_name("ORIGIN");
     add_number(app, "--port", arguments.port, "Listen on this port of 127.0.0.1 (default: any that is free)")
         ->check(in_range(1, 65535))
         ->type_name("N");
@@ -265,6 +268,7 @@ void levels_options(CLI::App& app, Arguments& arguments, Typed& typed) {
         ->check(in_range(1, 1000))
         ->type_name("N");
     app.add_option("-o,--output", arguments.output, "The file (STORE.lod)")->type_name("FILE");
+    app.add_option("--memory", typed.memory, "Memory budget, such as 1G or 500M; default: half of the available memory")->type_name("SIZE");
 }
 
 }  // namespace

@@ -15,7 +15,7 @@ namespace isoatlas::cli {
 int run_serve(const Arguments& arguments, Terminal& terminal) {
     constexpr std::chrono::milliseconds kLook{100};
     const char* token = std::getenv("ISOATLAS_BEARER_TOKEN");  // NOLINT(concurrency-mt-unsafe): nobody sets it
-    FolderServer server(arguments.file, arguments.port, token == nullptr ? "" : token);
+    FolderServer server(arguments.file, arguments.port, token == nullptr ? "" : token, arguments.reader);
     if (arguments.json) {
         Json json = document("serve");
         json["folder"] = arguments.file;

@@ -32,7 +32,8 @@ const std::vector<Verb> kVerbs{
      "FOLDER",
      "Serve the files of a folder by HTTP, so that isoatlas reads parts of them from elsewhere. Any web server with range requests does, "
      "too.",
-     {"isoatlas serve /data/scans", "isoatlas serve . --port 8000", "isoatlas serve . --json"},
+     {"isoatlas serve /data/scans", "isoatlas serve . --port 8000", "isoatlas serve . --json",
+      "isoatlas serve . --allow-origin https://neuroglancer-demo.appspot.com"},
      run_serve},
     {"ask",
      "ADDRESS",
