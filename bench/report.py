@@ -228,6 +228,9 @@ def replace(page, mark, text):
     return page[:found.start()] + found[1] + joined + "\n" + found[3] + page[found.end():]
 
 
+MEASURED_TO = 0.0011  # voxels: distances are upper bounds, a thousandth of a voxel above what is known to be there
+
+
 def simplified_table(document):
     """A row for each method on each surface; what differs from the exact surface, or is farther than was asked for, is in bold."""
     rows, last = [], None
@@ -239,7 +242,7 @@ def simplified_table(document):
             return bold(found, found != exact)
         distance = r["distance, voxels"]
         rows.append(["" if r["surface"] == last else r["surface"], r["method"], "" if r["triangles"] is None else thousands(r["triangles"]),
-                     "" if distance is None else bold(f"{distance:.3f}", distance > document["voxels"]), count("contours"), count("genus"),
+                     "" if distance is None else bold(f"{distance:.3f}", distance > document["voxels"] + MEASURED_TO), count("contours"), count("genus"),
                      "" if r["self-crossings"] is None else bold(r["self-crossings"], r["self-crossings"] > 0), r["what else is wrong"],
                      "" if r["seconds"] is None else f"{r['seconds']:.2f}"])
         last = r["surface"]

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Simplified surfaces of isoatlas, meshoptimizer, VTK and CGAL, of the same exact ones, each judged by `isoatlas verify --against`.
 
-    compare.py PROGRAMS [--surfaces fuel@50 ...] [--voxels 0.5] [--data FOLDER] [--cache FOLDER] [--seconds 600] [--json FILE]
+    compare.py PROGRAMS [--surfaces fuel@50 ...] [--voxels 0.5] [--data FOLDER] [--cache FOLDER] [--seconds 150] [--json FILE]
 
 PROGRAMS: the folder with isoatlas and bench_simplifiers. isoatlas, meshoptimizer and CGAL's envelope are told the greatest distance, VTK and
 CGAL's Lindstrom-Turk the number of triangles that isoatlas needs for it. What takes longer than --seconds is stopped, and its row says so.
@@ -161,7 +161,7 @@ def main():
     parser.add_argument("--voxels", type=float, default=0.5, help="the greatest distance, in voxels")
     parser.add_argument("--data", help="folder with NAME/NAME.nrrd")
     parser.add_argument("--cache", default="build/bench/volumes", help="folder for samples and meshes")
-    parser.add_argument("--seconds", type=float, default=600, help="longer runs are stopped")
+    parser.add_argument("--seconds", type=float, default=150, help="longer runs are stopped")
     parser.add_argument("--json")
     arguments = parser.parse_args()
     comparison = Comparison(arguments)
