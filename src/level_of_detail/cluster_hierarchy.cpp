@@ -36,9 +36,9 @@ public:
 
     void run() {
         constexpr std::array kShifts{0.0, 0.5, 0.25, 0.75};
-        const auto clusters = static_cast<double>(levels_.current().size());
+        all_clusters_ = static_cast<double>(levels_.current().size());
         for (std::size_t i = 0;; ++i) {
-            context_.report("clusters", 0, 1, 1 - static_cast<double>(levels_.current().size()) / clusters);
+            report(0);
             level_.grid.edge = std::max(edge_of_group(), level_.grid.edge * std::sqrt(2.0));
             level_.grid.shift = level_.grid.edge * kShifts[i % kShifts.size()];
             const bool has_changed = make_level();
@@ -49,6 +49,11 @@ public:
     }
 
 private:
+    /// done: of the groups of a level, which leave about a quarter of its clusters.
+    void report(double done) const {
+        context_.report("clusters", 0, 1, 1 - static_cast<double>(levels_.current().size()) / all_clusters_ * (1 - 0.75 * done));
+    }
+
     /// Of a cube with the triangles of so many clusters.
     [[nodiscard]] double edge_of_group() const {
         double area = 0;
@@ -76,7 +81,7 @@ private:
             const BoundingBox box = box_of(clusters);
             groups.push_back({std::move(clusters), box});
         }
-        return levels_.simplify(groups, std::move(left), level_.step);
+        return levels_.simplify(groups, std::move(left), level_.step, [this](double done) { report(done); });
     }
 
     /// In which the group is simplified; larger than its points, so that boxes that are apart remain so when positions are rounded.
@@ -116,7 +121,8 @@ private:
     const ClusterOptions& options_;
     const Context& context_;
     BoundingBox all_;
-    double size_ = 0;  ///< of all
+    double size_ = 0;          ///< of all
+    double all_clusters_ = 1;  ///< of the exact surface
     Level level_{};
 };
 

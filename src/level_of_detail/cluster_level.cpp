@@ -22,7 +22,8 @@ ClusterLevels::ClusterLevels(ClusterHierarchy& hierarchy, Versions& versions, co
     std::iota(current_.begin(), current_.end(), std::int64_t{0});
 }
 
-bool ClusterLevels::simplify(std::span<const Group> groups, std::vector<std::int64_t> left, double step) {
+bool ClusterLevels::simplify(std::span<const Group> groups, std::vector<std::int64_t> left, double step,
+                             const std::function<void(double)>& told) {
     std::vector<std::vector<std::int64_t>> parts;
     for (const Group& group : groups) parts.push_back(group.clusters);
     for (const std::int64_t cluster : left) parts.push_back({cluster});
@@ -42,6 +43,7 @@ bool ClusterLevels::simplify(std::span<const Group> groups, std::vector<std::int
         }
         simplify_colour(of_colour, groups, numbers, step, left);
         done += of_colour.size();
+        told(static_cast<double>(done) / static_cast<double>(groups.size()));
     }
     current_ = std::move(left);
     const bool has_changed = static_cast<std::int64_t>(hierarchy_.clusters.size()) > first_new;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -27,7 +28,8 @@ public:
     /// Simplifies groups of the current clusters, all but `left`, which stay. step: between a group and what replaces it. Points that
     /// several groups have stay. Groups whose boxes are apart are simplified at the same time, colour after colour; each sees all versions
     /// that were there before its colour. The clusters of groups in which nothing can be collapsed stay, too. Returns whether any could.
-    bool simplify(std::span<const Group> groups, std::vector<std::int64_t> left, double step);
+    /// told: gets what share of the groups is done.
+    bool simplify(std::span<const Group> groups, std::vector<std::int64_t> left, double step, const std::function<void(double)>& told);
 
 private:
     void simplify_colour(std::span<const std::size_t> of_colour, std::span<const Group> groups, std::span<const std::int64_t> numbers,

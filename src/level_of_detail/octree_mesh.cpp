@@ -56,7 +56,7 @@ public:
             const std::int64_t triangles = triangles_of(mesh.levels.back());
             const bool is_one_cell = mesh.levels.back().fragments.size() == 1;
             if (is_one_cell && triangles <= kFew) break;
-            context_.report("octree", 0, 1, 1 - std::pow(0.25, static_cast<double>(k)));
+            report(k, 0);
             simplify_cells(k, step);
             OctreeLevel next = level(k + 1);
             if (is_one_cell && 4 * triangles_of(next) > 3 * triangles) break;
@@ -66,6 +66,11 @@ public:
     }
 
 private:
+    /// done: of the cells of level k, which leave about a quarter of the triangles.
+    void report(std::int64_t k, double done) const {
+        context_.report("octree", 0, 1, 1 - std::pow(0.25, static_cast<double>(k)) * (1 - 0.75 * done));
+    }
+
     static std::int64_t triangles_of(const OctreeLevel& level) {
         std::int64_t triangles = 0;
         for (const OctreeFragment& fragment : level.fragments) triangles += static_cast<std::int64_t>(fragment.triangles.size());
@@ -135,7 +140,7 @@ private:
             places.push_back({place[0] << k, place[1] << k, place[2] << k});
         }
         const std::size_t first_group = hierarchy_.groups.size();
-        (void)levels_.simplify(groups, {}, step);
+        (void)levels_.simplify(groups, {}, step, [&](double done) { report(k, done); });
         for (std::size_t i = places_.size(); i < hierarchy_.clusters.size(); ++i)
             places_.push_back(places[static_cast<std::size_t>(hierarchy_.clusters[i].made_by) - first_group]);
     }

@@ -29,10 +29,16 @@ Ball ball_of(const TrianglePoints& triangle) {
     return ball;
 }
 
-std::array<TrianglePoints, 4> quarters_of(const TrianglePoints& triangle) {
+TrianglePoints quarter_of(const TrianglePoints& triangle, std::uint32_t k) {
     const auto& [a, b, c] = triangle;
-    const Vec3 ab = middle_of(a, b), bc = middle_of(b, c), ca = middle_of(c, a);
-    return {TrianglePoints{a, ab, ca}, {ab, b, bc}, {ca, bc, c}, {ab, bc, ca}};
+    if (k == 0) return {a, middle_of(a, b), middle_of(c, a)};
+    if (k == 1) return {middle_of(a, b), b, middle_of(b, c)};
+    if (k == 2) return {middle_of(c, a), middle_of(b, c), c};
+    return {middle_of(a, b), middle_of(b, c), middle_of(c, a)};
+}
+
+std::array<TrianglePoints, 4> quarters_of(const TrianglePoints& triangle) {
+    return {quarter_of(triangle, 0), quarter_of(triangle, 1), quarter_of(triangle, 2), quarter_of(triangle, 3)};
 }
 
 /// Ericson, Real-time collision detection, 2005, 5.1.5: the region of the triangle in which p lies.

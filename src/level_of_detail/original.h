@@ -28,6 +28,8 @@ struct Ball {
 
 /// The triangle cut in four by the middles of its sides.
 [[nodiscard]] std::array<TrianglePoints, 4> quarters_of(const TrianglePoints& triangle);
+/// Quarter k of them.
+[[nodiscard]] TrianglePoints quarter_of(const TrianglePoints& triangle, std::uint32_t k);
 
 /// Is every point of `part` within a distance of `triangle`? It is convex, and so is the distance from it: largest in a corner of the part.
 [[nodiscard]] inline bool is_near_all(const TrianglePoints& part, const TrianglePoints& triangle, double squared_distance) {

@@ -9,7 +9,7 @@ namespace isoatlas {
 
 TrianglePoints corners_of(const OriginalSurface& original, const Piece& piece) {
     TrianglePoints corners = original.corners(piece.triangle);
-    for (int digit = (std::bit_width(piece.path) - 1) / 2; digit-- > 0;) corners = quarters_of(corners)[piece.path >> (2 * digit) & 3U];
+    for (int digit = (std::bit_width(piece.path) - 1) / 2; digit-- > 0;) corners = quarter_of(corners, piece.path >> (2 * digit) & 3U);
     return corners;
 }
 
