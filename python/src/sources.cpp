@@ -105,7 +105,7 @@ void write_evolution(const std::shared_ptr<Source>& source, const std::string& p
     });
 }
 
-/// surfaces: voxel, stored isovalue, whether it is a contour. Returns what the file holds, as dicts with stored isovalues.
+/// surfaces: voxel, stored isovalue, whether it is a contour. Returns what the file holds, as dicts.
 py::list save_levels(const std::shared_ptr<Source>& source, const std::string& path,
                      const std::vector<std::tuple<std::int64_t, double, bool>>& surfaces, const CallOptions& call) {
     if (!source->is_store()) {

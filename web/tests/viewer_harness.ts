@@ -61,7 +61,8 @@ export class Served {
   static async store(path: string, hasLevels = true): Promise<Served> {
     const folder = mkdtempSync(join(tmpdir(), "isoatlas-viewer-"));
     const name = basename(path, ".atlas");
-    for (const file of hasLevels ? [".atlas", ".atlas.lod"] : [".atlas"]) symlinkSync(path.replace(/\.atlas$/, file), join(folder, name + file));
+    const files = hasLevels ? [".atlas", ".atlas.lod"] : [".atlas"];
+    for (const file of files) symlinkSync(path.replace(/\.atlas$/, file), join(folder, name + file));
     return Served.begin(folder, name, [], ".atlas");
   }
 
