@@ -7,7 +7,7 @@ SHELL := /bin/bash
 .DEFAULT_GOAL := help
 # Where make was called: with -C that is not here, and relative paths are of there.
 export CALLER := $(PWD)
-export VOLUME ARGS PREFIX SECONDS_PER_TARGET
+export VOLUME ARGS PREFIX SECONDS_PER_TARGET FUZZ_TARGETS
 
 .PHONY: help demo quick test check build install package format lint bench memory studies figures table131 fuzz asan tsan coverage clean shared_data
 
@@ -60,7 +60,7 @@ table131: shared_data build ## the dissertation's table 13.1 beside ours; writes
 shared_data:
 	@test -d ../shared/data || { echo "This needs the volumes of ../shared/data, a folder beside the checkout that is no part of the repository. Next: make bench and make test do without" >&2; exit 2; }
 
-fuzz: ## every fuzz target for SECONDS_PER_TARGET (60)
+fuzz: ## every fuzz target (or FUZZ_TARGETS="tiff zarr") for SECONDS_PER_TARGET (60)
 	@scripts/fuzz.sh
 
 asan: ## all tests under the address and undefined behaviour sanitizers

@@ -29,8 +29,10 @@ struct Head {
     [[nodiscard]] bool is_known() const { return kind == Kind::raw ? orders == Orders{0, 0, 0} : std::ranges::max(orders) < 3; }
 };
 
-constexpr std::int64_t kRawWhereLess = 8;  ///< samples are kept as they are where coding saves less than this part of them
-constexpr std::int64_t kFewTailBits = 4;   ///< bits a sample: below this, keys were never better by more than 1 %
+/// Samples are kept as they are where coding saves less than this part of them (docs/decisions/0046-raw-bricks.md).
+template <class T>
+constexpr std::int64_t kRawWhereLess = std::floating_point<T> ? 4 : 8;
+constexpr std::int64_t kFewTailBits = 4;  ///< bits a sample: below this, keys were never better by more than 1 %
 
 /// The numbers of a brick, padded with zeros to whole groups.
 template <class N>
@@ -176,7 +178,7 @@ template <class T>
 BrickCode choose_code(std::span<const T> samples, const Index3& size, T low) {
     const BrickCode coded = best_coded(samples, size, low);
     const auto bytes = static_cast<std::int64_t>(samples.size_bytes());
-    return coded.bytes > bytes - bytes / kRawWhereLess ? BrickCode{Head{Kind::raw}.byte(), 1 + bytes} : coded;
+    return coded.bytes > bytes - bytes / kRawWhereLess<T> ? BrickCode{Head{Kind::raw}.byte(), 1 + bytes} : coded;
 }
 
 template <class T>

@@ -6,7 +6,7 @@
 //   groups    (bit_groups.h) the differences, arranged (differences.h), padded with zeros to a multiple of 8
 //   tails     floats in units with 128 in the first byte only (float_units.h)
 //
-// or 192, then the samples as they are, where the above saves less than an eighth of them.
+// or 192, then the samples as they are, where the above saves less than an eighth of them, of floats less than a quarter.
 //
 // The numbers are relative to that of the lowest sample, which is stored elsewhere: order-preserving keys
 // (sample_keys.h), or floats in units. A constant brick has no bytes.

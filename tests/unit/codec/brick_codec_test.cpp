@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
+#include <bit>
 #include <cmath>
 #include <cstring>
 #include <limits>
@@ -169,6 +170,22 @@ TEST(BrickCodec, SamplesStayAsTheyAreWhereCodingSavesLessThanAnEighth) {
     EXPECT_EQ(bytes_with(15).bytes, 1 + 2 * kBrickSamples);
     EXPECT_EQ(bytes_with(13).head, 0);
     EXPECT_LT(bytes_with(13).bytes, 2 * kBrickSamples * 7 / 8);
+    check_round_trip(brick, 192);
+}
+
+TEST(BrickCodec, FloatsStayAsTheyAreWhereCodingSavesLessThanAQuarter) {
+    Brick<float> brick{kBrickSize, {}};
+    const auto code_with = [&brick](int bits) {  // the lowest bits of each sample are noise
+        std::mt19937 random(9);
+        brick.samples.clear();
+        for (int i = 0; i < kBrickSamples; ++i)
+            brick.samples.push_back(std::bit_cast<float>(static_cast<std::uint32_t>(0x30000000U + (random() >> (32 - bits)))));
+        return choose_code<float>(brick.samples, brick.size, extremes_of<float>(brick.samples).first);
+    };
+    EXPECT_EQ(code_with(26).head, 192);
+    EXPECT_EQ(code_with(26).bytes, 1 + 4 * kBrickSamples);
+    EXPECT_NE(code_with(22).head, 192);
+    EXPECT_LT(code_with(22).bytes, 3 * kBrickSamples);
     check_round_trip(brick, 192);
 }
 
