@@ -12,12 +12,14 @@ run_target() {
     mkdir -p "${folders[0]}"
     if [[ -d tests/fuzz/corpus/$name ]]; then folders+=(tests/fuzz/corpus/"$name"); fi
     if [[ -f $words ]]; then options+=(-dict="$words"); fi
-    "$program" "${options[@]}" -max_total_time="$seconds" -rss_limit_mb=2048 -timeout=20 -print_final_stats=1 \
-        -artifact_prefix=build/fuzz/crashes/"$name"- "${folders[@]}" > "$log" 2>&1 || result="FAILED: $log"
-    local inputs coverage
+    local TIMEFORMAT=%U inputs coverage
+    {
+        time "$program" "${options[@]}" -max_total_time="$seconds" -rss_limit_mb=2048 -timeout=20 -print_final_stats=1 \
+            -artifact_prefix=build/fuzz/crashes/"$name"- "${folders[@]}" > "$log" 2>&1
+    } 2> "$log.processor" || result="FAILED: $log"
     inputs=$(sed -n 's/^stat::number_of_executed_units: *//p' "$log" | tail -n 1)
     coverage=$(grep -o 'cov: [0-9]*' "$log" | tail -n 1 || true)
-    printf '%-14s %8s s %12s inputs  %10s  %s\n' "$name" "$seconds" "${inputs:-0}" "${coverage:-}" "$result"
+    printf '%-14s %8s s of processor %12s inputs  %10s  %s\n' "$name" "$(tail -n 1 "$log.processor")" "${inputs:-0}" "${coverage:-}" "$result"
     [[ $result == "no finding" ]]
 }
 

@@ -7,6 +7,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -53,22 +54,27 @@ struct ClusterOptions {
 [[nodiscard]] ClusterHierarchy make_clusters(Surface surface, const Geometry& geometry, const Extent& extent,
                                              const ClusterOptions& options = {}, const Context& context = {});
 
+/// The cone around a picture, its tip in the eye.
+struct ViewCone {
+    Vec3 direction{};       ///< of any length above 0
+    double half_angle = 0;  ///< radians, above 0 and below pi/2
+};
+
 /// From where a surface is seen.
 struct Viewpoint {
-    Vec3 eye{};                      ///< physical
-    double pixel = 0;                ///< how wide a pixel is at a physical distance of 1 from the eye, physical; above 0
-    double near = 0;                 ///< what is nearer to the eye than this counts as being there, physical; above 0
-    Vec3 towards{};                  ///< the direction of the view, of any length above 0
-    double half_angle = kAllAround;  ///< radians, below pi/2: what is seen lies in a cone of that angle around the direction
-
-    static constexpr double kAllAround = 4;  ///< whatever the direction, all is seen
+    Vec3 eye{};                         ///< physical
+    double pixel = 0;                   ///< how wide a pixel is at a physical distance of 1 from the eye, physical; above 0
+    double near = 0;                    ///< what is nearer to the eye than this counts as being there, physical; above 0
+    std::optional<ViewCone> cone = {};  ///< what is seen; without one: all around
 };
+
+/// Throws Error{usage} where a number is not what Viewpoint and ViewCone say.
+void require_viewpoint(const Viewpoint& from);
 
 /// Of each group: how many pixels what replaces it is at most from the exact surface, as it is seen where its ball comes nearest to the
 /// eye; a sixteenth of that where its ball is outside the view. At least those of the groups that made its clusters: the groups of at most
 /// so many pixels are a choice. length: physical, of a unit of ClusterGroup::distance in the direction where it is longest. Throws
-/// Error{usage}: pixel, near or length is not positive, a direction is missing, an angle is neither below pi/2 nor all around. Source:
-/// Cignoni et al., 2004, and Karis, 2021, as above.
+/// Error{usage}: length is not positive; as require_viewpoint(). Source: Cignoni et al., 2004, and Karis, 2021, as above.
 [[nodiscard]] std::vector<double> pixels_of_groups(const ClusterHierarchy& hierarchy, const Viewpoint& from, double length = 1);
 
 /// The surface of a choice: is_chosen is asked once for each group whose made_of are all chosen. Cost: O(hierarchy).

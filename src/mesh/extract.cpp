@@ -42,7 +42,7 @@ public:
     void run(Surface& surface) {
         if (domain_.is_empty()) return for_arrays(surface, [](auto& array) { array.clear(); });
         count();
-        check_size();
+        require_triangles(layout_.back().triangle, options_);
         allocate(surface);
         write_hits(surface);
         write_cells(surface);
@@ -115,15 +115,6 @@ private:
         return place.x_hits + place.y_hits + place.z_hits + place.triangle > 0;
     }
 
-    void check_size() const {
-        const std::int64_t simplices = layout_.back().triangle, max = options_.max_triangles;
-        if (max == 0 || simplices <= max) return;
-        throw Error(ErrorKind::resource, {.what = "the surface has " + std::to_string(simplices) + " triangles",
-                                          .expected = "at most " + std::to_string(max),
-                                          .next = "ask for one object or another isovalue, or allow more triangles",
-                                          .reason = Reason::too_many_triangles});
-    }
-
     /// Every entry will be written.
     void allocate(Surface& surface) const {
         const auto points = static_cast<std::size_t>(layout_.back().point), simplices = static_cast<std::size_t>(layout_.back().triangle);
@@ -193,6 +184,14 @@ void describe(Surface& surface, const VolumeInfo& info, double tau, Interpolant 
     surface.tunnel_height = tunnel_height;
     surface.reported_tunnel_height = info.calibration.reported_difference(tunnel_height);
     surface.polarity = polarity_of(info);
+}
+
+void require_triangles(std::int64_t triangles, const SurfaceOptions& options, const char* about) {
+    if (options.max_triangles == 0 || triangles <= options.max_triangles) return;
+    throw Error(ErrorKind::resource, {.what = "the surface has " + std::string(about) + std::to_string(triangles) + " triangles",
+                                      .expected = "at most " + std::to_string(options.max_triangles),
+                                      .next = "ask for one object or another isovalue, or allow more triangles",
+                                      .reason = Reason::too_many_triangles});
 }
 
 Surface extract_level(const TauLevel& level, const ExtractOptions& options, const Context& context) {

@@ -14,6 +14,10 @@ namespace isoatlas {
 [[nodiscard]] bool selects_components(const SurfaceOptions& options);
 [[nodiscard]] inline bool needs_representatives(const SurfaceOptions& options) { return options.ids || selects_components(options); }
 
+/// Throws Error{resource} where a surface has more triangles (segments) than SurfaceOptions::max_triangles. about: "at least ", where they
+/// are not all counted.
+void require_triangles(std::int64_t triangles, const SurfaceOptions& options, const char* about = "");
+
 /// What a surface says of itself, apart from points and triangles.
 void describe(Surface& surface, const VolumeInfo& info, double tau, Interpolant interpolant, double tunnel_height);
 

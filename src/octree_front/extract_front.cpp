@@ -87,6 +87,12 @@ bool touches(const FrontLeaf& leaf, const SampleBox& box) {
     return true;
 }
 
+std::int64_t number_of(const FrontLeaves& leaves) {
+    std::int64_t number = 0;
+    for (std::int64_t row = 0; row < leaves.rows(); ++row) number += static_cast<std::int64_t>(leaves.leaves(row).size());
+    return number;
+}
+
 /// About how many triangles leaves make.
 std::int64_t estimated_triangles(const FrontLeaves& leaves) {
     std::int64_t triangles = 0;
@@ -142,6 +148,7 @@ FrontSurface extract_front_level(const TauLevel& level, const FrontOptions& opti
 
     const CoalescibleBlocks blocks(level.high, std::max(options.max_level, 1), context);
     const std::unique_ptr<FrontLeaves> leaves = choose_leaves(blocks, options, context);
+    if (chosen.empty()) require_triangles(number_of(*leaves), how.surface, "at least ");  // a leaf has one or more
     std::vector<RowFans> fans;
     const double deviation = fit(level, options, *leaves, fans, context);
 
@@ -159,6 +166,7 @@ FrontSurface extract_front_level(const TauLevel& level, const FrontOptions& opti
                                 : count_cells(level, how.surface.boundary, *components, chosen, context);
     }
     if (!chosen.empty()) keep_contours(chosen, surface);
+    require_triangles(static_cast<std::int64_t>(surface.triangles.size()), how.surface);
     if (how.surface.ids)
         write_ids(*components, context, surface);
     else

@@ -64,7 +64,7 @@ FrontMesh<T>::FrontMesh(const TauLevel& level, const SampleGrid<T>& grid, const 
       flip_(is_mirrored(level.info())),
       cells_(grid_, level.tau, domain_, map_, how, flip_),
       groups_(domain_),
-      normals_(how.surface.normals),
+      options_(how.surface),
       components_(components) {
     domain_.only = &mask_;
 }
@@ -149,8 +149,9 @@ void FrontMesh<T>::write(const std::vector<RowFans>& fans, Surface& surface) {
         point += std::exchange(points, point);
         triangle += std::exchange(triangles, triangle);
     }
+    if (!selects_components(options_)) require_triangles(triangle, options_);
     resize_for_overwrite(surface.points, static_cast<std::size_t>(point));
-    resize_for_overwrite(surface.normals, static_cast<std::size_t>(normals_ ? point : 0));
+    resize_for_overwrite(surface.normals, static_cast<std::size_t>(options_.normals ? point : 0));
     resize_for_overwrite(surface.contour, static_cast<std::size_t>(components_ != nullptr ? point : 0));
     resize_for_overwrite(surface.triangles, static_cast<std::size_t>(triangle));
 

@@ -30,8 +30,10 @@ void find_fans(const FrontLeaves& leaves, std::int64_t row, RowFans& fans);
 template <class T>
 class FrontMesh {
 public:
+    /// how: outlives this.
     FrontMesh(const TauLevel& level, const SampleGrid<T>& grid, const FrontLeaves& leaves, const ExtractOptions& how,
               const Context& context, const Components* components);
+    /// Throws Error{resource}: a surface of all components has more than SurfaceOptions::max_triangles.
     void write(const std::vector<RowFans>& fans, Surface& surface);
 
 private:
@@ -56,7 +58,7 @@ private:
     RowGroups groups_;
     Layout layout_;
     std::vector<std::array<std::int64_t, 2>> first_;  ///< point beside hits, triangle of each row
-    bool normals_;
+    const SurfaceOptions& options_;
     const Components* components_;  ///< null: points have no contours
 };
 

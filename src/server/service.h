@@ -116,8 +116,8 @@ private:
     [[nodiscard]] std::int64_t max_triangles() const;
     [[nodiscard]] WireMesh wire(const Surface& surface, std::int64_t max, const Context& context) const;
     /// With the topology of the exact surface, by blocks of an octree; nothing: it has no more triangles, or blocks are not enough.
-    [[nodiscard]] std::optional<WireMesh> front_of(const Atlas& atlas, const Surface& exact, const SurfaceOptions& options,
-                                                   std::int64_t triangles, const Context& context) const;
+    [[nodiscard]] std::optional<WireMesh> front_of(const Atlas& atlas, const Surface& exact, SurfaceOptions options, std::int64_t triangles,
+                                                   const Context& context) const;
     /// A surface of at most so many triangles, if it can be reduced to so many: a level of detail where the store has it.
     [[nodiscard]] WireMesh mesh_of(const Atlas& atlas, double tau, const SurfaceOptions& options, const MeshWanted& wanted,
                                    const Context& context);

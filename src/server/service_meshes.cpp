@@ -58,10 +58,9 @@ std::optional<Viewpoint> viewpoint_of(QueryParameters& words, const Geometry& ge
     if (towards.has_value() != angle.has_value())
         throw Error(ErrorKind::usage,
                     {.where = "towards", .what = "a direction of view has an angle", .next = "add towards=X,Y,Z&angle=DEGREES"});
-    if (towards && std::ranges::count(*towards, 0.0) == 3) refuse_parameter("towards", "0,0,0", "a direction");
-    if (angle && !(*angle < kHalfTurn)) refuse_parameter("angle", number_text(*angle), "less than 180 degrees");
     Viewpoint from{.eye = *eye, .pixel = *pixel, .near = std::ranges::min(geometry.spacing)};
-    if (towards) from.towards = *towards, from.half_angle = *angle / kHalfTurn * std::numbers::pi / 2;
+    if (towards) from.cone = {*towards, *angle / kHalfTurn * std::numbers::pi / 2};
+    require_viewpoint(from);
     return from;
 }
 
@@ -104,11 +103,17 @@ WireMesh Service::mesh_of(const Atlas& atlas, double tau, const SurfaceOptions& 
     return mesh;
 }
 
-std::optional<WireMesh> Service::front_of(const Atlas& atlas, const Surface& exact, const SurfaceOptions& options, std::int64_t triangles,
+std::optional<WireMesh> Service::front_of(const Atlas& atlas, const Surface& exact, SurfaceOptions options, std::int64_t triangles,
                                           const Context& context) const {
     if (static_cast<std::int64_t>(exact.triangles.size()) <= triangles) return std::nullopt;
-    const FrontSurface front = atlas.extract_front(exact.tau, {.max_level = kFrontLevel, .triangles = triangles}, options, context);
-    if (static_cast<std::int64_t>(front.surface.triangles.size()) > triangles) return std::nullopt;
+    options.max_triangles = triangles;
+    FrontSurface front;
+    try {
+        front = atlas.extract_front(exact.tau, {.max_level = kFrontLevel, .triangles = triangles}, options, context);
+    } catch (const Error& error) {
+        if (error.reason() != Reason::too_many_triangles) throw;
+        return std::nullopt;
+    }
     WireMesh mesh = wire(front.surface, 0, context);
     const auto widest = std::ranges::find_if(front.leaves.rbegin(), front.leaves.rend(), [](std::int64_t count) { return count > 0; });
     mesh.coarse = true;  // both surfaces of a block lie in it

@@ -67,8 +67,8 @@ void every_view_has_the_same_contours_within_its_distance() {
     isoatlas::Viewpoint from{.pixel = 0.01, .near = 0.5};
     for (double& x : from.eye) x = *rc::gen::inRange(-20, 40);
     if (*rc::gen::arbitrary<bool>()) {
-        from.half_angle = *rc::gen::inRange(1, 15) / 10.0;
-        from.towards = {1.0, static_cast<double>(*rc::gen::inRange(-3, 4)), static_cast<double>(*rc::gen::inRange(-3, 4))};
+        const double half_angle = *rc::gen::inRange(1, 15) / 10.0;
+        from.cone = {{1.0, static_cast<double>(*rc::gen::inRange(-3, 4)), static_cast<double>(*rc::gen::inRange(-3, 4))}, half_angle};
     }
     const std::vector<double> pixels = pixels_of_groups(hierarchy, from);
     for (std::size_t i = 0; i < pixels.size(); ++i) {

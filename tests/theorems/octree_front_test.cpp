@@ -135,6 +135,26 @@ void fronts_have_the_same_bytes_for_any_threads() {
     RC_ASSERT(one.leaves == two.leaves);
 }
 
+/// max_triangles refuses one triangle more and nothing less, of the whole as of parts.
+void more_triangles_than_may_be_are_refused() {
+    const CoarseCase c;
+    const FrontOptions options = arbitrary_front(c.volume.info.extent);
+    isoatlas::ExtractOptions how{.interpolant = c.exact.interpolant};
+    how.surface.shell = *rc::gen::element(isoatlas::ShellChoice::all, isoatlas::ShellChoice::outer, isoatlas::ShellChoice::inner);
+    const auto triangles = static_cast<std::int64_t>(extract_front(c.volume, c.exact.tau, options, how).surface.triangles.size());
+    RC_PRE(triangles > 1);
+    how.surface.max_triangles = triangles;
+    RC_ASSERT(static_cast<std::int64_t>(extract_front(c.volume, c.exact.tau, options, how).surface.triangles.size()) == triangles);
+    how.surface.max_triangles = *rc::gen::inRange<std::int64_t>(1, triangles);
+    isoatlas::Reason reason = isoatlas::Reason::none;
+    try {
+        (void)extract_front(c.volume, c.exact.tau, options, how);
+    } catch (const isoatlas::Error& error) {
+        reason = error.reason();
+    }
+    RC_ASSERT(reason == isoatlas::Reason::too_many_triangles);
+}
+
 /// Leaves of any sizes: those that a coin keeps.
 struct CoinFront {
     int max_level;
@@ -275,6 +295,7 @@ RC_GTEST_PROP(OctreeFronts, StayWithinTheirDeviation, ()) { hits_stay_within_the
 RC_GTEST_PROP(OctreeFronts, AreExactInRegionsOfInterest, ()) { regions_of_interest_are_exact(); }
 RC_GTEST_PROP(OctreeFronts, HavePointsOfTheExactSurface, ()) { points_of_fronts_are_exact_points(); }
 RC_GTEST_PROP(OctreeFronts, HaveTheSameBytesForAnyThreads, ()) { fronts_have_the_same_bytes_for_any_threads(); }
+RC_GTEST_PROP(OctreeFronts, AreRefusedWithMoreTrianglesThanMayBe, ()) { more_triangles_than_may_be_are_refused(); }
 RC_GTEST_PROP(OctreeFronts, AreAnyChoiceOfLeaves, ()) { every_choice_of_leaves_is_a_front(); }
 
 }  // namespace

@@ -218,10 +218,10 @@ describe.skipIf(!canServe)("the scene", () => {
     });
     expect(new Set(numbers).size).toBe(40); // the number follows at once
     await expect.poll(() => asked.length).toBe(2); // the first one and the last one
-    expect(asked.every((most) => most === 20_000)).toBe(true);
+    expect(asked.every((most) => most <= 40_000)).toBe(true);
     await slider.dispatchEvent("change");
     await settled(tab);
-    expect(asked.filter((most) => most > 20_000).length).toBe(1);
+    expect(asked.filter((most) => most > 1_000_000).length).toBe(1);
     await expect.poll(() => tab.locator(".badge").textContent()).toContain("triangles");
     await tab.getByRole("button", { name: "Undo: isovalue" }).click();
     await expect.poll(() => new URL(tab.url()).hash).toContain(`#scene=0,${listed[0]?.best_tau},`);

@@ -7,6 +7,7 @@ import { animatedPng, chunksOf } from "../src/viewer/export/apng";
 import { allText, bytesText } from "../src/viewer/panels/surface_estimate";
 import { ConnectionError, failureText, ServerError, type Api, type Eye } from "../src/viewer/api/api";
 import { eventNear, eventsOf } from "../src/viewer/state/events";
+import { DragBudget } from "../src/viewer/api/drag_budget";
 import { Latest } from "../src/viewer/api/latest";
 import { factsOf } from "../src/viewer/panels/object_measures";
 import { PALETTE } from "../src/viewer/state/palette";
@@ -129,6 +130,23 @@ describe("surfaces", () => {
     expect(asked.map(({ most }) => most)).toEqual([20_000, 1e8]);
     surfaces.remove(0);
     expect(asked[1]?.aborted).toBe(true);
+  });
+  it("that are dragged have as many triangles as arrive in time", async () => {
+    const { surfaces, asked } = lanes();
+    for (let tau = 1; tau <= 8; ++tau) {
+      surfaces.request(0, request(tau), true);
+      asked.at(-1)?.answer({ coarse: tau < 7 });
+      await surfaces.settled();
+    }
+    expect(asked.map(({ most }) => most / 20_000)).toEqual([1, 2, 4, 8, 16, 32, 32, 32]);
+
+    const budget = new DragBudget();
+    const after = (milliseconds: number, isReduced = true): number => {
+      budget.took(milliseconds, isReduced);
+      return budget.triangles;
+    };
+    expect([99, 99, 99].map((quick) => after(quick))).toEqual([40_000, 80_000, 160_000]);
+    expect([after(99, false), after(150), after(300), after(300, false)]).toEqual([160_000, 160_000, 40_000, 20_000]);
   });
 });
 

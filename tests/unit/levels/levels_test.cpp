@@ -121,8 +121,8 @@ TEST_F(LevelsOfStores, AreFineWhereTheEyeIsNear) {
         }
     }
     EXPECT_THROW((void)levels.seen_from(0, {.eye = {}, .pixel = 0, .near = 1}, 1, 9), Error);
-    EXPECT_THROW((void)levels.seen_from(0, {.eye = {}, .pixel = 1, .near = 1, .half_angle = 1}, 1, 9), Error);  // no direction
-    EXPECT_THROW((void)levels.seen_from(0, {.eye = {}, .pixel = 1, .near = 1, .towards = {1, 0, 0}, .half_angle = 1.6}, 1, 9), Error);
+    EXPECT_THROW((void)levels.seen_from(0, {.eye = {}, .pixel = 1, .near = 1, .cone = ViewCone{{}, 1}}, 1, 9), Error);  // no direction
+    EXPECT_THROW((void)levels.seen_from(0, {.eye = {}, .pixel = 1, .near = 1, .cone = ViewCone{{1, 0, 0}, 1.6}}, 1, 9), Error);
     EXPECT_THROW((void)levels.seen_from(0, {.eye = {}, .pixel = 1, .near = 1}, 0, 9), Error);
 }
 

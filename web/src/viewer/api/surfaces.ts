@@ -1,7 +1,8 @@
-// Loads surfaces of objects, one channel an object: coarse ones during a drag, full ones when it ends. Of large ones with levels of detail
-// the full one is fine where the eye is near, and is loaded again from where the eye goes.
+// Loads surfaces of objects, one channel an object: during a drag coarse ones that arrive in time, full ones when it ends. Of large ones
+// with levels of detail the full one is fine where the eye is near, and is loaded again from where the eye goes.
 import { ConnectionError, failureText, isSuperseded, type Api, type Eye, type SurfaceTarget } from "./api";
 import { countComponents } from "./count_components";
+import { DragBudget } from "./drag_budget";
 import { DIVISIONS } from "../state/points";
 import type { ShellFilter } from "../state/state";
 import type { Mesh } from "../../shared/wire";
@@ -72,6 +73,7 @@ export function keyOf({ tau, walls }: Pick<SurfaceRequest, "tau" | "walls">): st
 export class Surfaces {
   private readonly channels = new Map<number, Channel>();
   private readonly pending = new Set<Promise<void>>();
+  private readonly dragged = new DragBudget();
   private asPoints = false;
 
   /** onMesh: null where there is no such surface. eye: from where the scene is seen now. */
@@ -105,11 +107,11 @@ export class Surfaces {
     const isLoading = channel.requested > 0 && (dragging || channel.untilFull);
     const isDone = loadState.key === key && (dragging || !(loadState.coarse || this.isSeenFromElsewhere(channel)));
     if (channel.key === key && (isLoading || isDone)) return;
-    if (dragging && channel.requested === COARSE) {
+    if (dragging && channel.requested > 0 && channel.requested < FULL) {
       channel.next = request;
       return;
     }
-    const levels = dragging ? [COARSE] : loadState.key === key && loadState.error === "" ? [FULL] : [COARSE, FULL];
+    const levels = dragging ? [this.dragged.triangles] : loadState.key === key && loadState.error === "" ? [FULL] : [COARSE, FULL];
     channel.untilFull = !dragging;
     channel.key = key;
     this.track(this.load(entry, channel, request, levels));
@@ -150,13 +152,16 @@ export class Surfaces {
   /** levels: maximal numbers of triangles, loaded one after the other. */
   private async load(entry: number, channel: Channel, request: SurfaceRequest, levels: number[]): Promise<void> {
     const key = keyOf(request);
+    const isDragged = !channel.untilFull;
     const isStale = (): boolean => channel.key !== key || this.channels.get(entry) !== channel;
     try {
       for (const maxTriangles of levels) {
         channel.requested = maxTriangles;
         channel.loadState = { ...channel.loadState, waiting: true };
         this.onUpdate(entry);
+        const start = performance.now();
         let mesh = await this.meshOf(entry, request, maxTriangles);
+        if (isDragged) this.dragged.took(performance.now() - start, mesh.coarse);
         if (isStale()) return;
         if (maxTriangles === FULL && mesh.coarse && mesh.pixels === undefined && channel.hasNoLevels !== key) {
           channel.hasNoLevels = key; // coarse by blocks of cells: then the exact surface

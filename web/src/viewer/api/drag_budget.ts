@@ -1,0 +1,23 @@
+// How many triangles surfaces may have while an isovalue is dragged: as many as arrive in time. Coarse ones of few triangles need not
+// have the topology of the exact surface.
+
+/** triangles: few enough for a slow line */
+const FEWEST = 20_000;
+const MOST = 32 * FEWEST;
+/** ms: a surface that took less could have been larger, one that took more should be smaller */
+const QUICK = 100;
+const SLOW = 250;
+
+export class DragBudget {
+  private most = FEWEST;
+
+  get triangles(): number {
+    return this.most;
+  }
+
+  /** A surface was there after so many milliseconds. isReduced: the exact one has more triangles than were allowed. */
+  took(milliseconds: number, isReduced: boolean): void {
+    if (milliseconds > SLOW) this.most = Math.max(this.most / 4, FEWEST);
+    else if (milliseconds < QUICK && isReduced) this.most = Math.min(2 * this.most, MOST);
+  }
+}
