@@ -176,7 +176,7 @@ const std::vector<Verb> kVerbs{
 /// Of the help.
 const std::vector<VerbGroup> kGroups{
     {"Explore", {"atlas", "view", "info", "objects", "measure", "spectrum", "tree", "handles", "name"}},
-    {"Export", {"extract", "label", "render", "animate", "convert", "build", "levels"}},
+    {"Export", {"extract", "label", "render", "animate", "convert", "build", "levels", "serve"}},
     {"Check", {"verify"}},
     {"For experts", {"ask", "dump", "table131", "compare", "phantom", "completion", "manual"}},
 };
@@ -217,7 +217,9 @@ std::string overview() {
     text +=
         "\nEvery verb has --help with examples, --json for one JSON document on standard output, --quiet and --threads N.\n"
         "Results go to standard output, messages and progress to standard error.\n"
-        "Reads RAW, NRRD/NHDR, MHD/MHA, NIfTI-1, NumPy .npy, VTK .vti and .vtk, MRC maps, TIFF files and folders of TIFF slices.\n"
+        "Reads DICOM, NIfTI, NRRD, MetaImage, OME-Zarr, OME-TIFF, HDF5 (NeXus, Imaris, BigDataViewer, VTKHDF), NetCDF, MRC, VTK, Amira, "
+        "Analyze,\n"
+        "BOV, OpenVDB, NumPy, RAW, pictures (PNG, JPEG, BMP): files, folders, and addresses (https://...).\n"
         "\nExit codes: 0 done, 1 bug, 2 usage, 3 input damaged or missing, 4 format not supported, 5 cannot write or out of memory,\n"
         "6 no such object or isovalue, 7 a guarantee does not hold, 130 interrupted.\n";
     return text;
