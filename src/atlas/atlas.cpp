@@ -107,12 +107,21 @@ struct Atlas::Data {
         return surface;
     }
 
-    /// Runs query(level, active): sets the number of active cells; may be null.
+    /// The voxels of a choice of objects, where what lies away from them does not matter; empty: all matters.
+    [[nodiscard]] std::vector<std::int64_t> wanted_objects(const SurfaceOptions& options) const {
+        const std::int64_t voxels = samples->grid().extent.voxels();
+        const auto is_inside = [&](std::int64_t voxel) { return voxel >= 0 && voxel < voxels; };
+        const bool are_enough = options.contours.empty() && !options.ids;  // the id of a contour may be that of a Low region around others
+        return are_enough && std::ranges::all_of(options.objects, is_inside) ? options.objects : std::vector<std::int64_t>{};
+    }
+
+    /// Runs query(level, active): sets the number of active cells; may be null. wanted: objects, of StoredSamples::classify().
     template <class Query>
-    auto at_level(double tau, bool with_representatives, const Context& context, QueryCost* cost, Query&& query) {
+    auto at_level(double tau, const std::vector<std::int64_t>& wanted, bool with_representatives, const Context& context, QueryCost* cost,
+                  Query&& query) {
         LevelQuery spent;
         std::int64_t active = 0;
-        StoredLevel level = samples->classify(tau, context, spent);
+        StoredLevel level = samples->classify(tau, wanted, context, spent);
         if (with_representatives) samples->add_extremes(level.bricks, context);
         const auto sample = [&](std::int64_t voxel) { return samples->sample(voxel, spent); };
         auto answer = query(TauLevel{samples->view(), tau, level.high, &level.bricks, {}, sample}, cost == nullptr ? nullptr : &active);
@@ -149,7 +158,7 @@ double Atlas::tunnel_height() const { return data_->store.contents().parameters.
 Cut Atlas::cut(double tau, const AtlasCutOptions& options, const Context& context, QueryCost* cost) const {
     const EnvironmentScope scope(context);
     const CutOptions own{.interpolant = interpolant(), .tunnel_height = tunnel_height(), .label = options.label};
-    return data_->at_level(tau, true, context, cost, [&](const TauLevel& level, std::int64_t* active) {
+    return data_->at_level(tau, {}, true, context, cost, [&](const TauLevel& level, std::int64_t* active) {
         Cut cut = cut_level(level, own, context);
         if (active != nullptr) *active = cut.active_cells;
         return cut;
@@ -168,7 +177,7 @@ Surface Atlas::extract(double tau, const SurfaceOptions& options, const Context&
         std::optional<Surface> surface = data_->extract_object(tau, own, context, cost, extract);
         if (surface) return std::move(*surface);
     }
-    return data_->at_level(tau, needs_representatives(options), context, cost,
+    return data_->at_level(tau, data_->wanted_objects(options), needs_representatives(options), context, cost,
                            [&](const TauLevel& level, std::int64_t* active) { return extract(level, own, active); });
 }
 
@@ -192,7 +201,7 @@ FrontSurface Atlas::extract_front(double tau, const FrontOptions& options, const
             return front;
         }
     }
-    return data_->at_level(tau, needs_representatives(surface), context, cost,
+    return data_->at_level(tau, data_->wanted_objects(surface), needs_representatives(surface), context, cost,
                            [&](const TauLevel& level, std::int64_t* active) { return extract(level, own, active); });
 }
 

@@ -112,6 +112,30 @@ BrickFlags with_halo(const BrickGrid& grid, BrickFlags of_bricks, std::uint8_t o
     return of_bricks;
 }
 
+void keep_joined(const BrickGrid& grid, const std::vector<BrickId>& homes, IdArray<BrickId, BrickClass>& classes) {
+    BrickFlags joined(classes.size(), 0);
+    std::vector<BrickId> pending;
+    const auto join = [&](BrickId brick) {
+        if (joined[brick] || classes[brick] == BrickClass::low) return;
+        joined[brick] = 1;
+        pending.push_back(brick);
+    };
+    for (const BrickId home : homes) join(home);
+    while (!pending.empty()) {
+        const Index3 place = grid.place(pending.back());
+        pending.pop_back();
+        const Index3 begin = max(place - 1, {0, 0, 0}), end = min(place + 2, grid.size);
+        for (std::int64_t z = begin[2]; z < end[2]; ++z) {
+            for (std::int64_t y = begin[1]; y < end[1]; ++y) {
+                for (std::int64_t x = begin[0]; x < end[0]; ++x) join(grid.brick({x, y, z}));
+            }
+        }
+    }
+    for (const BrickId brick : grid.bricks()) {
+        if (!joined[brick]) classes[brick] = BrickClass::low;
+    }
+}
+
 std::vector<BrickId> flagged(IdSpan<BrickId, const std::uint8_t> flags) {
     std::vector<BrickId> list;
     for (const BrickId b : flags.ids()) {

@@ -28,6 +28,10 @@ inline void put_bits(std::uint64_t* row, std::int64_t p, std::uint64_t bits) {
 /// The flags of bricks, and of those around them; outside: those of what lies beyond the ends of the grid.
 [[nodiscard]] BrickFlags with_halo(const BrickGrid& grid, BrickFlags flags, std::uint8_t outside = 0);
 
+/// Makes bricks Low that no chain of bricks with Highs joins with one of `homes`; in it, neighbours share a corner at least. An object of
+/// the isovalue lies in the chains of its brick, so that it and all cells around it stay as they are. Cost: O(bricks).
+void keep_joined(const BrickGrid& grid, const std::vector<BrickId>& homes, IdArray<BrickId, BrickClass>& classes);
+
 /// The flagged bricks, in ascending order.
 [[nodiscard]] std::vector<BrickId> flagged(IdSpan<BrickId, const std::uint8_t> flags);
 

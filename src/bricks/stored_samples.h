@@ -57,8 +57,10 @@ public:
     /// Classes of all samples at tau, and every sample that a surface with normals needs made present in view()
     /// as long as the query lives.
     /// Cost: the bricks that are not present yet, and writing a bit a voxel. Afterwards only candidate words (levelset/candidate_words.h)
-    /// need to be processed.
-    [[nodiscard]] virtual StoredLevel classify(double tau, const Context& context, LevelQuery& query) = 0;
+    /// need to be processed. objects: voxels of the objects that are wanted; others, as far as whole bricks lie between, count as Low and
+    /// are not read. Empty: all.
+    [[nodiscard]] virtual StoredLevel classify(double tau, const std::vector<std::int64_t>& objects, const Context& context,
+                                               LevelQuery& query) = 0;
     /// The same for another isovalue than that of `kept`, which is updated: only bricks with a sample between the two are reclassified.
     /// Returns their number. When it throws, `kept` must not be used again.
     virtual std::int64_t reclassify(KeptLevel& kept, double tau, const Context& context, LevelQuery& query) = 0;

@@ -91,7 +91,7 @@ std::vector<ObjectMeasures> measure_objects(const Atlas& atlas, double tau, cons
         const std::optional<StoredWindow> window = window_of_object(samples, objects[0], tau, tunnel_height, context, spent);
         if (window) return measure(find_components(window->at(tau), tunnel_height, context), window->window.origin);
     }
-    StoredLevel stored = samples.classify(tau, context, spent);
+    StoredLevel stored = samples.classify(tau, {}, context, spent);
     samples.add_extremes(stored.bricks, context);
     const auto sample = [&](std::int64_t voxel) { return samples.sample(voxel, spent); };
     return measure(find_components({samples.view(), tau, stored.high, &stored.bricks, {}, sample}, tunnel_height, context), {0, 0, 0});

@@ -91,6 +91,14 @@ void check_objects(const Atlas& atlas, const Volume& volume, double tau, isoatla
         options.objects = {cut.objects[i].id};
         ASSERT_TRUE(same(atlas.extract(tau, options), isoatlas::extract(volume, tau, {.surface = options})))
             << "object " << cut.objects[i].id;
+        // Without ids others are left out, where whole bricks lie between.
+        isoatlas::SurfaceOptions alone = options;
+        alone.ids = false;
+        for (int more = 0; more < 2; ++more) {
+            ASSERT_TRUE(same(atlas.extract(tau, alone), isoatlas::extract(volume, tau, {.surface = alone})))
+                << more << " beside object " << cut.objects[i].id;
+            alone.objects.push_back(cut.objects[(i + step) % cut.objects.size()].id);
+        }
     }
 }
 
@@ -128,6 +136,37 @@ TEST_F(Stores, ReadForASmallObjectOnlyWhatIsAroundIt) {
     options.objects = {cut.objects.back().id};  // the smallest
     EXPECT_FALSE(atlas.extract(200, options).points.empty());
     EXPECT_LE(atlas.reads().bricks, 64);  // of 512
+}
+
+/// A rod through the volume, and balls at its corners: no brick of theirs touches one of the rod.
+Volume rod_and_balls(std::int64_t size) {
+    std::vector<float> samples;
+    const double near = static_cast<double>(size) / 6, far = 5 * near;
+    for (std::int64_t i = 0; i < size * size * size; ++i) {
+        const double x = static_cast<double>(i % size), y = static_cast<double>(i / size % size), z = static_cast<double>(i / size / size);
+        const auto away = [&](double at_x, double at_y, double at_z) { return std::hypot(x - at_x, y - at_y, z - at_z); };
+        const double along = (x + y + z) / 3;
+        const double balls = std::min({away(far, near, near), away(near, far, near), away(near, near, far)});
+        samples.push_back(static_cast<float>(std::max(4 - away(along, along, along), 16 - balls)));
+    }
+    return isoatlas::make_volume<float>({3, {size, size, size}}, samples);
+}
+
+TEST_F(Stores, ReadForALongObjectOnlyWhatIsJoinedWithIt) {
+    const std::int64_t size = 96;
+    const Volume volume = rod_and_balls(size);
+    isoatlas::build_atlas(path_, volume);
+    isoatlas::SurfaceOptions rod;
+    rod.objects = {(size + 1) * size * size / 2 + size / 2};
+    rod.ids = false;
+    isoatlas::QueryCost whole, alone, front;
+    const Surface expected = isoatlas::extract(volume, 1, {.surface = rod});
+    (void)Atlas(path_).extract(1, {}, {}, &whole);
+    EXPECT_TRUE(same(Atlas(path_).extract(1, rod, {}, &alone), expected));
+    (void)Atlas(path_).extract_front(1, {}, rod, {}, &front);
+    EXPECT_FALSE(expected.points.empty());
+    EXPECT_LT(2 * alone.bricks, whole.bricks);
+    EXPECT_EQ(front.bricks, alone.bricks);
 }
 
 RC_GTEST_FIXTURE_PROP(Stores, GiveTheSameTrees, ()) {
