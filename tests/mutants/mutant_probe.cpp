@@ -7,10 +7,12 @@
 #include <filesystem>
 #include <fstream>
 #include <random>
+#include <set>
 
 #include "atlas/build_fingerprint.h"
 #include "base/atomic_file.h"
 #include "base/temporary_name.h"
+#include "bricks/brick_classes.h"
 #include "isoatlas/error.h"
 #include "isoatlas/surface.h"
 #include "isoatlas/verify.h"
@@ -180,12 +182,42 @@ void check_fingerprints() {
     std::exit(1);
 }
 
+/// What whole bricks say of one object: all bricks with Highs that a chain of neighbours joins with it, and no others.
+void check_joined_bricks() {
+    using isoatlas::BrickClass, isoatlas::BrickId;
+    std::mt19937 random(11);
+    for (int round = 0; round < 20; ++round) {
+        const isoatlas::BrickGrid grid({3, {5 * 16, 5 * 8, 5 * 8}});
+        isoatlas::IdArray<BrickId, BrickClass> classes(static_cast<std::size_t>(grid.count()));
+        for (const BrickId b : grid.bricks()) classes[b] = random() % 5 < 4 ? BrickClass::low : BrickClass::divided;
+        std::set<std::int64_t> joined;
+        const BrickId home(grid.count() / 2);
+        classes[home] = BrickClass::high;
+        joined.insert(home.number());
+        for (std::size_t before = 0; before < joined.size();) {
+            before = joined.size();
+            for (const BrickId a : grid.bricks()) {
+                for (const BrickId b : grid.bricks()) {
+                    const isoatlas::Index3 p = grid.place(a), q = grid.place(b);
+                    const bool are_near = std::abs(p[0] - q[0]) <= 1 && std::abs(p[1] - q[1]) <= 1 && std::abs(p[2] - q[2]) <= 1;
+                    if (are_near && classes[b] != BrickClass::low && joined.contains(a.number())) joined.insert(b.number());
+                }
+            }
+        }
+        isoatlas::keep_joined(grid, {home}, classes);
+        for (const BrickId b : grid.bricks()) {
+            if ((classes[b] != BrickClass::low) != joined.contains(b.number())) fail("bricks of an object are missing or too many", {});
+        }
+    }
+}
+
 }  // namespace
 
 int main() try {
     check_outputs();
     check_requests();
     check_fingerprints();
+    check_joined_bricks();
     check_predicates();
     if (const std::string promise = mutants::broken_promise_of_readers(); !promise.empty()) {
         std::printf("does not hold: %s\n", promise.c_str());
