@@ -224,9 +224,27 @@ bool decode_brick(std::span<const std::byte> packed, const Index3& size, T low, 
     return false;
 }
 
+template <class T>
+BrickCode code_as(std::span<const T> samples, const Index3& size, T low, std::uint8_t first) {
+    const Head head = Head::of(first);
+    bool fits = head.is_known();
+    if (head.kind == Kind::exact_units || head.kind == Kind::units_with_tails) {
+        fits = false;
+        if constexpr (std::floating_point<T>) {
+            const std::optional<Units> units = units_of(samples);
+            fits = head.is_known() && units && units->exact == (head.kind == Kind::exact_units);
+        }
+    }
+    if (!fits) return choose_code(samples, size, low);
+    std::vector<std::byte> packed;
+    encode_brick(samples, size, low, first, packed);
+    return {first, static_cast<std::int64_t>(packed.size())};
+}
+
 #define ISOATLAS_INSTANTIATE(T)                                                                                 \
     template std::pair<T, T> extremes_of<T>(std::span<const T>);                                                \
     template BrickCode choose_code<T>(std::span<const T>, const Index3&, T);                                    \
+    template BrickCode code_as<T>(std::span<const T>, const Index3&, T, std::uint8_t);                          \
     template void encode_brick<T>(std::span<const T>, const Index3&, T, std::uint8_t, std::vector<std::byte>&); \
     template bool decode_brick<T>(std::span<const std::byte>, const Index3&, T, std::span<T>);
 ISOATLAS_FOR_SAMPLE_TYPES(ISOATLAS_INSTANTIATE)

@@ -39,6 +39,10 @@ struct BrickCode {
 template <class T>
 [[nodiscard]] BrickCode choose_code(std::span<const T> samples, const Index3& size, T low);
 
+/// The code with the first byte that a store has, whatever that saves; a chosen one, where it does not fit the samples. Cost: an encoding.
+template <class T>
+[[nodiscard]] BrickCode code_as(std::span<const T> samples, const Index3& size, T low, std::uint8_t head);
+
 /// Appends the samples, encoded with their chosen code; low is the lowest of them.
 template <class T>
 void encode_brick(std::span<const T> samples, const Index3& size, T low, std::uint8_t head, std::vector<std::byte>& out);

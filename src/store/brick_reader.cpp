@@ -246,6 +246,28 @@ void BrickReader<T>::check(const Context& context) const {
     });
 }
 
+std::vector<std::uint8_t> brick_heads(const Container& store) {
+    constexpr std::int64_t kPart = 1 << 20;
+    const StoredArray& data = store.contents().array("volume/data", "uint8");
+    const auto offset = store.all<std::uint64_t>("volume/offset", "uint64");
+    const auto bytes = store.all<std::uint16_t>("volume/bytes", "uint16");
+    std::vector<std::uint8_t> heads(offset.size(), 0);
+    std::vector<std::byte> part;
+    std::int64_t begin = 0;
+    for (const BrickId brick : BrickGrid(store.contents().volume.extent).file_order()) {
+        const std::size_t i = brick.index();
+        const auto at = static_cast<std::int64_t>(offset.at(i));
+        if (bytes.at(i) == 0 || at >= data.bytes()) continue;
+        if (at < begin || at - begin >= std::ssize(part)) {
+            begin = at;
+            part.resize(static_cast<std::size_t>(std::min(kPart, data.bytes() - begin)));
+            store.read_unchecked(data, begin, part);
+        }
+        heads[i] = static_cast<std::uint8_t>(part[static_cast<std::size_t>(at - begin)]);
+    }
+    return heads;
+}
+
 #define ISOATLAS_INSTANTIATE(T) template class BrickReader<T>;
 ISOATLAS_FOR_SAMPLE_TYPES(ISOATLAS_INSTANTIATE)
 #undef ISOATLAS_INSTANTIATE

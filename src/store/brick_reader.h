@@ -71,4 +71,7 @@ private:
     std::vector<std::uint16_t> lowest_, highest_;
 };
 
+/// The first byte of each brick, which says how it is coded; 0 of one that has no bytes. Cost: reads all bricks.
+[[nodiscard]] std::vector<std::uint8_t> brick_heads(const Container& store);
+
 }  // namespace isoatlas

@@ -53,10 +53,14 @@ struct Bricks {
     std::vector<T> low, high;
     std::vector<std::uint16_t> lowest, highest;
     std::int64_t bytes = 0;
+    bool are_chosen = true;
 
-    Bricks(std::span<const T> values, const Extent& extent, int thread_count)
-        : samples(values), grid(extent), threads(thread_count), order(grid.file_order()) {
+    /// stored_heads: empty, or the codes.
+    Bricks(std::span<const T> values, const Extent& extent, int thread_count, std::vector<std::uint8_t> stored_heads)
+        : samples(values), grid(extent), threads(thread_count), order(grid.file_order()), heads(std::move(stored_heads)) {
         const auto count = static_cast<std::size_t>(grid.count());
+        ISOATLAS_CHECK(heads.empty() || heads.size() == count);
+        are_chosen = heads.empty();
         offset.resize(count), sums.resize(count), packed_bytes.resize(count), heads.resize(count);
         low.resize(count), high.resize(count);
         lowest.resize(count), highest.resize(count);
@@ -72,7 +76,10 @@ struct Bricks {
         copy_box(samples, grid.extent, grid.box(brick), values);
         std::tie(low[brick.index()], high[brick.index()]) = extremes_of<T>(values);
         if (!is_constant(brick)) {
-            const BrickCode code = choose_code<T>(values, grid.box(brick).size(), low[brick.index()]);
+            const Index3 size = grid.box(brick).size();
+            const T lowest_value = low[brick.index()];
+            const BrickCode code =
+                are_chosen ? choose_code<T>(values, size, lowest_value) : code_as<T>(values, size, lowest_value, heads[brick.index()]);
             heads[brick.index()] = code.head;
             packed_bytes[brick.index()] = static_cast<std::uint16_t>(code.bytes);
         }
@@ -106,10 +113,10 @@ struct Bricks {
 
 }  // namespace
 
-std::vector<PackedArray> brick_arrays(const VolumeView& volume, const Context& context) {
+std::vector<PackedArray> brick_arrays(const VolumeView& volume, const Context& context, std::vector<std::uint8_t> heads) {
     std::vector<PackedArray> arrays;
     visit_samples(volume, [&]<class T>(std::span<const T> samples) {
-        const auto bricks = std::make_shared<Bricks<T>>(samples, volume.info->extent, context.threads);
+        const auto bricks = std::make_shared<Bricks<T>>(samples, volume.info->extent, context.threads, std::move(heads));
         const auto add = [&]<class N>(const char* name, const char* type, const std::vector<N>& numbers) {
             arrays.push_back(array_of_bricks(name, type, bricks->grid,
                                              [bricks, &numbers](const ByteSink& put) { put(std::as_bytes(std::span(numbers))); }));

@@ -18,8 +18,9 @@
 namespace isoatlas {
 
 /// The arrays of a volume, to be packed in this order. Samples and info must live until then; their numbers live as long as the arrays.
-/// Cost: two passes over the samples, 30 bytes a brick and a few bricks for each thread.
-[[nodiscard]] std::vector<PackedArray> brick_arrays(const VolumeView& volume, const Context& context);
+/// heads: the first byte of each brick, as a store has them (brick_heads()); empty: codes are chosen. Cost: two passes over the samples, 30
+/// bytes a brick and a few bricks for each thread.
+[[nodiscard]] std::vector<PackedArray> brick_arrays(const VolumeView& volume, const Context& context, std::vector<std::uint8_t> heads = {});
 /// volume/lowest and volume/highest alone, of negated samples: their ties are not those of the samples. Cost: a pass over the samples.
 [[nodiscard]] std::vector<PackedArray> brick_place_arrays(const VolumeView& volume, const Context& context);
 

@@ -73,6 +73,11 @@ void check_choice() {
     RC_ASSERT(static_cast<std::int64_t>(packed_as(brick, code.head).size()) == code.bytes);
     RC_ASSERT(code.bytes <= static_cast<std::int64_t>((brick.samples.size() + 7) / 8 * 8 * sizeof(T) + 3));
     check_round_trip(brick, code.head);
+    for (const int head : {static_cast<int>(code.head), 0, 21, 42, 64, 128, 192, 255}) {
+        const BrickCode same = code_as<T>(brick.samples, brick.size, low, static_cast<std::uint8_t>(head));
+        RC_ASSERT(same.head == head || same.head == code.head);  // that of the first byte, or a chosen one where it does not fit
+        RC_ASSERT(static_cast<std::int64_t>(packed_as(brick, same.head).size()) == same.bytes);
+    }
 }
 
 RC_GTEST_PROP(BrickCodec, GivesTheSameBits, ()) {
