@@ -257,7 +257,7 @@ std::vector<std::uint8_t> brick_heads(const Container& store) {
     for (const BrickId brick : BrickGrid(store.contents().volume.extent).file_order()) {
         const std::size_t i = brick.index();
         const auto at = static_cast<std::int64_t>(offset.at(i));
-        if (bytes.at(i) == 0 || at >= data.bytes()) continue;
+        if (bytes.at(i) == 0 || at < 0 || at >= data.bytes()) continue;
         if (at < begin || at - begin >= std::ssize(part)) {
             begin = at;
             part.resize(static_cast<std::size_t>(std::min(kPart, data.bytes() - begin)));

@@ -217,9 +217,8 @@ std::string overview() {
     text +=
         "\nEvery verb has --help with examples, --json for one JSON document on standard output, --quiet and --threads N.\n"
         "Results go to standard output, messages and progress to standard error.\n"
-        "Reads DICOM, NIfTI, NRRD, MetaImage, OME-Zarr, OME-TIFF, HDF5 (NeXus, Imaris, BigDataViewer, VTKHDF), NetCDF, MRC, VTK, Amira, "
-        "Analyze,\n"
-        "BOV, OpenVDB, NumPy, RAW, pictures (PNG, JPEG, BMP): files, folders, and addresses (https://...).\n"
+        "Reads DICOM, NIfTI, NRRD, MetaImage, OME-Zarr, OME-TIFF, HDF5 (NeXus, Imaris, BigDataViewer, VTKHDF), NetCDF, MRC, VTK,\n"
+        "Amira, Analyze, BOV, OpenVDB, NumPy, RAW, pictures (PNG, JPEG, BMP): files, folders, and addresses (https://...).\n"
         "\nExit codes: 0 done, 1 bug, 2 usage, 3 input damaged or missing, 4 format not supported, 5 cannot write or out of memory,\n"
         "6 no such object or isovalue, 7 a guarantee does not hold, 130 interrupted.\n";
     return text;
