@@ -145,8 +145,8 @@ describe("surfaces", () => {
       budget.took(milliseconds, isReduced);
       return budget.triangles;
     };
-    expect([99, 99, 99].map((quick) => after(quick))).toEqual([40_000, 80_000, 160_000]);
-    expect([after(99, false), after(150), after(300), after(300, false)]).toEqual([160_000, 160_000, 40_000, 20_000]);
+    expect([199, 99, 99].map((quick) => after(quick))).toEqual([40_000, 80_000, 160_000]);
+    expect([after(99, false), after(300), after(500), after(500, false)]).toEqual([160_000, 160_000, 40_000, 20_000]);
   });
 });
 

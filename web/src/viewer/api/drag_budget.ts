@@ -5,8 +5,8 @@
 const FEWEST = 20_000;
 const MOST = 32 * FEWEST;
 /** ms: a surface that took less could have been larger, one that took more should be smaller */
-const QUICK = 100;
-const SLOW = 250;
+const QUICK = 200;
+const SLOW = 400;
 
 export class DragBudget {
   private most = FEWEST;
