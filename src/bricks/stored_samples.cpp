@@ -37,11 +37,9 @@ public:
         require_isovalue(tau);
         const std::lock_guard lock(mutex_);
         const Threshold<T> threshold = threshold_for<T>(tau);
-        LevelBricks bricks = bricks_of(BrickPart(grid_), threshold, context.threads);
         std::vector<BrickId> homes;
         for (const std::int64_t voxel : objects) homes.push_back(grid_.brick(BrickGrid::place_of(info_.extent.voxel(voxel))));
-        if (!homes.empty()) keep_joined(grid_, homes, bricks.classes);
-        return classify_part(BrickPart(grid_), std::move(bricks), threshold, context, query).level;
+        return classify_part(BrickPart(grid_), homes, threshold, context, query).level;
     }
 
     std::int64_t reclassify(KeptLevel& kept, double tau, const Context& context, LevelQuery& query) override {
@@ -74,7 +72,7 @@ public:
         const std::lock_guard lock(mutex_);
         const Threshold<T> threshold = threshold_for<T>(tau);
         const BrickPart part(grid_, bricks);
-        Classified classified = classify_part(part, bricks_of(part, threshold, context.threads), threshold, context, own);
+        Classified classified = classify_part(part, {}, threshold, context, own);
         StoredWindow result{info_, {info_.extent, part.origin}, {}, std::move(classified.level)};
         result.info.extent = part.grid.extent;
         add_extremes(part, 1, result.level.bricks);
@@ -213,8 +211,11 @@ private:
         std::vector<BrickId> needed;         ///< bricks whose samples a surface with normals needs; they are present
     };
 
-    Classified classify_part(const BrickPart& part, LevelBricks around, const Threshold<T>& threshold, const Context& context,
-                             LevelQuery& query) {
+    /// homes: of keep_joined(), bricks of the part; empty: all bricks count.
+    Classified classify_part(const BrickPart& part, const std::vector<BrickId>& homes, const Threshold<T>& threshold,
+                             const Context& context, LevelQuery& query) {
+        LevelBricks around = bricks_of(part, threshold, context.threads);
+        if (!homes.empty()) keep_joined(part.grid, homes, around.classes);
         HighBits bits(around);
         Classified result{
             {std::move(bits), std::move(around)}, IdArray<BrickId, BrickFaces>(static_cast<std::size_t>(part.grid.count())), {}};
@@ -231,8 +232,7 @@ private:
 
     std::int64_t classify_anew(KeptLevel& kept, const Threshold<T>& threshold, const Context& context, LevelQuery& query) {
         kept.level.reset();  // its memory is used again
-        Classified all =
-            classify_part(BrickPart(grid_), bricks_of(BrickPart(grid_), threshold, context.threads), threshold, context, query);
+        Classified all = classify_part(BrickPart(grid_), {}, threshold, context, query);
         kept.beside = BrickFlags(all.level.bricks.classes.size(), 0);
         for (const BrickId b : all.needed) kept.beside[b] = all.level.bricks.classes[b] != BrickClass::divided;
         kept.level = std::move(all.level);

@@ -140,7 +140,7 @@ describe("surfaces", () => {
     }
     expect(asked.map(({ most }) => most / 20_000)).toEqual([1, 2, 4, 8, 16, 32, 32, 32]);
 
-    const budget = new DragBudget();
+    const budget = new DragBudget(20_000);
     const after = (milliseconds: number, isReduced = true): number => {
       budget.took(milliseconds, isReduced);
       return budget.triangles;

@@ -1,15 +1,19 @@
 // How many triangles surfaces may have while an isovalue is dragged: as many as arrive in time. Coarse ones of few triangles need not
 // have the topology of the exact surface.
 
-/** triangles: few enough for a slow line */
-const FEWEST = 20_000;
-const MOST = 32 * FEWEST;
+/** the most triangles, in the fewest ones */
+const MOST = 32;
 /** ms: a surface that took less could have been larger, one that took more should be smaller */
 const QUICK = 200;
 const SLOW = 400;
 
 export class DragBudget {
-  private most = FEWEST;
+  private most: number;
+
+  /** fewest: few enough for a slow line */
+  constructor(private readonly fewest: number) {
+    this.most = fewest;
+  }
 
   get triangles(): number {
     return this.most;
@@ -17,7 +21,7 @@ export class DragBudget {
 
   /** A surface was there after so many milliseconds. isReduced: the exact one has more triangles than were allowed. */
   took(milliseconds: number, isReduced: boolean): void {
-    if (milliseconds > SLOW) this.most = Math.max(this.most / 4, FEWEST);
-    else if (milliseconds < QUICK && isReduced) this.most = Math.min(2 * this.most, MOST);
+    if (milliseconds > SLOW) this.most = Math.max(this.most / 4, this.fewest);
+    else if (milliseconds < QUICK && isReduced) this.most = Math.min(2 * this.most, MOST * this.fewest);
   }
 }

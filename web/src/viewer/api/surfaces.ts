@@ -73,7 +73,7 @@ export function keyOf({ tau, walls }: Pick<SurfaceRequest, "tau" | "walls">): st
 export class Surfaces {
   private readonly channels = new Map<number, Channel>();
   private readonly pending = new Set<Promise<void>>();
-  private readonly dragged = new DragBudget();
+  private readonly dragged = new DragBudget(COARSE);
   private asPoints = false;
 
   /** onMesh: null where there is no such surface. eye: from where the scene is seen now. */
