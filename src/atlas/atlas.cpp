@@ -88,13 +88,17 @@ struct Atlas::Data {
     /// One object from its own part of the store, by extract(level, options, active), which returns the surface; nullopt when the whole is
     /// cheaper, or the voxel lies in no object.
     template <class Extract>
-    std::optional<Surface> extract_object(double tau, ExtractOptions options, const Context& context, QueryCost* cost, Extract&& extract) {
+    std::optional<Surface> extract_object(double tau, ExtractOptions options, const Context& context, QueryCost* cost, Extract&& extract,
+                                          ObjectBricks& bricks) {
         LevelQuery spent;
         const double height = tunnel_height_of(options.interpolant, options.tunnel_height);
         std::vector<std::int64_t>& chosen = options.surface.objects;
-        const std::optional<StoredWindow> window = window_of_object(*samples, chosen[0], tau, height, context, spent);
+        const bool is_alone = !wanted_objects(options.surface).empty();
+        ObjectPart part = part_of_object(*samples, chosen[0], tau, height, is_alone, context, spent);
+        const std::optional<StoredWindow>& window = part.window;
         if (!window) {
             count(spent, 0, cost);
+            bricks = std::move(part.bricks);
             return std::nullopt;
         }
         chosen = {local_voxel(*window, chosen[0])};
@@ -115,13 +119,14 @@ struct Atlas::Data {
         return are_enough && std::ranges::all_of(options.objects, is_inside) ? options.objects : std::vector<std::int64_t>{};
     }
 
-    /// Runs query(level, active): sets the number of active cells; may be null. wanted: objects, of StoredSamples::classify().
+    /// Runs query(level, active): sets the number of active cells; may be null. wanted: of wanted_objects(); bricks: theirs, if known.
     template <class Query>
     auto at_level(double tau, const std::vector<std::int64_t>& wanted, bool with_representatives, const Context& context, QueryCost* cost,
-                  Query&& query) {
+                  Query&& query, ObjectBricks bricks = {}) {
         LevelQuery spent;
         std::int64_t active = 0;
-        StoredLevel level = samples->classify(tau, wanted, context, spent);
+        if (!wanted.empty() && bricks.bricks.empty()) bricks = samples->bricks_of_objects(tau, wanted, context, spent, kWorthGrowing);
+        StoredLevel level = samples->classify(tau, bricks.bricks, context, spent);
         if (with_representatives) samples->add_extremes(level.bricks, context);
         const auto sample = [&](std::int64_t voxel) { return samples->sample(voxel, spent); };
         auto answer = query(TauLevel{samples->view(), tau, level.high, &level.bricks, {}, sample}, cost == nullptr ? nullptr : &active);
@@ -173,12 +178,14 @@ Surface Atlas::extract(double tau, const SurfaceOptions& options, const Context&
         extract_level(level, how, context, surface, active);
         return surface;
     };
+    ObjectBricks bricks;
     if (is_one_object(options) && std::isfinite(tau)) {
-        std::optional<Surface> surface = data_->extract_object(tau, own, context, cost, extract);
+        std::optional<Surface> surface = data_->extract_object(tau, own, context, cost, extract, bricks);
         if (surface) return std::move(*surface);
     }
-    return data_->at_level(tau, data_->wanted_objects(options), needs_representatives(options), context, cost,
-                           [&](const TauLevel& level, std::int64_t* active) { return extract(level, own, active); });
+    return data_->at_level(
+        tau, data_->wanted_objects(options), needs_representatives(options), context, cost,
+        [&](const TauLevel& level, std::int64_t* active) { return extract(level, own, active); }, std::move(bricks));
 }
 
 FrontSurface Atlas::extract_front(double tau, const FrontOptions& options, const SurfaceOptions& surface, const Context& context,
@@ -189,20 +196,24 @@ FrontSurface Atlas::extract_front(double tau, const FrontOptions& options, const
     const auto extract = [&](const TauLevel& level, const ExtractOptions& how, std::int64_t* active) {
         return extract_front_level(level, options, how, context, active);
     };
+    ObjectBricks bricks;
     if (is_one_object(surface) && std::isfinite(tau) && options.exact.empty() && !options.eye) {  // places would be those of the whole
         FrontSurface front;
-        std::optional<Surface> object =
-            data_->extract_object(tau, own, context, cost, [&](const TauLevel& level, const ExtractOptions& how, std::int64_t* active) {
+        std::optional<Surface> object = data_->extract_object(
+            tau, own, context, cost,
+            [&](const TauLevel& level, const ExtractOptions& how, std::int64_t* active) {
                 front = extract(level, how, active);
                 return std::move(front.surface);
-            });
+            },
+            bricks);
         if (object) {
             front.surface = std::move(*object);
             return front;
         }
     }
-    return data_->at_level(tau, data_->wanted_objects(surface), needs_representatives(surface), context, cost,
-                           [&](const TauLevel& level, std::int64_t* active) { return extract(level, own, active); });
+    return data_->at_level(
+        tau, data_->wanted_objects(surface), needs_representatives(surface), context, cost,
+        [&](const TauLevel& level, std::int64_t* active) { return extract(level, own, active); }, std::move(bricks));
 }
 
 ActiveObjects Atlas::active(double tau, bool contours, const Context& context) const {

@@ -1,14 +1,26 @@
 #include "atlas/object_window.h"
 
 #include <algorithm>
+#include <utility>
 
-#include "bricks/stored_samples.h"
 #include "levelset/components.h"
 
 namespace isoatlas {
 namespace {
 
 constexpr std::int64_t kMargin = 3;
+constexpr std::int64_t kSmallBox = 512;  ///< bricks
+
+/// The flagged bricks, and one more on every side.
+Box box_around(const BrickFlags& bricks, const BrickGrid& grid) {
+    Box box{grid.size, {0, 0, 0}};
+    for (const BrickId b : grid.bricks()) {
+        if (!bricks[b]) continue;
+        box.begin = min(box.begin, max(grid.place(b) - 1, {0, 0, 0}));
+        box.end = max(box.end, min(grid.place(b) + 2, grid.size));
+    }
+    return box;
+}
 
 /// Bounds of the object that contains a voxel of the window; empty: the voxel is Low.
 std::optional<Box> bounds_of(const StoredWindow& window, std::int64_t voxel, double tau, double tunnel_height, const Context& context) {
@@ -52,10 +64,11 @@ bool grow(Box& bricks, const Box& object, const StoredWindow& window, const Bric
 
 }  // namespace
 
-std::optional<StoredWindow> window_of_object(StoredSamples& samples, std::int64_t voxel, double tau, double tunnel_height,
-                                             const Context& context, LevelQuery& query) {
+ObjectPart part_of_object(StoredSamples& samples, std::int64_t voxel, double tau, double tunnel_height, bool is_alone,
+                          const Context& context, LevelQuery& query) {
     const BrickGrid& grid = samples.grid();
-    if (grid.extent.rank == 2 || voxel < 0 || voxel >= grid.extent.voxels()) return std::nullopt;
+    ObjectPart part;
+    if (grid.extent.rank == 2 || voxel < 0 || voxel >= grid.extent.voxels()) return part;
     const Index3 at = grid.extent.voxel(voxel);
     const Index3 home = BrickGrid::place_of(at);
     Box bricks{home, home + 1};
@@ -63,13 +76,25 @@ std::optional<StoredWindow> window_of_object(StoredSamples& samples, std::int64_
     alone.threads = 1;
     alone.progress = nullptr;
     while (2 * bricks.count() <= grid.count()) {
-        StoredWindow window = samples.classify_window(tau, bricks, alone, query);
+        if (is_alone && bricks.count() > kSmallBox && part.bricks.bricks.empty()) {
+            part.bricks = samples.bricks_of_objects(tau, {voxel}, context, query, kWorthGrowing);
+            if (part.bricks.is_tight) {
+                bricks = box_around(part.bricks.bricks, grid);
+                if (2 * bricks.count() <= grid.count())
+                    part.window = samples.classify_window(tau, bricks, part.bricks.bricks, alone, query);
+                return part;
+            }
+        }
+        StoredWindow window = samples.classify_window(tau, bricks, BrickFlags(), alone, query);
         const std::int64_t local = window.info.extent.index(at - window.window.origin);
         const std::optional<Box> object = bounds_of(window, local, tau, tunnel_height, alone);
-        if (!object) return std::nullopt;
-        if (!grow(bricks, *object, window, grid)) return window;
+        if (!object) return part;
+        if (!grow(bricks, *object, window, grid)) {
+            part.window = std::move(window);
+            return part;
+        }
     }
-    return std::nullopt;
+    return part;
 }
 
 }  // namespace isoatlas

@@ -57,6 +57,15 @@ BrickBits bits_of_brick(const T* samples, const Index3& size, T min) {
     return bits;
 }
 
+BrickBits whole_brick(const Index3& size) {
+    BrickBits bits{};
+    for (std::int64_t z = 0; z < size[2]; ++z) {
+        for (std::int64_t y = 0; y < size[1]; ++y)
+            bits[static_cast<std::size_t>(y + kSide * z)] = static_cast<std::uint16_t>(0xffff >> (kRow - size[0]));
+    }
+    return bits;
+}
+
 void put_brick(const BrickBits& bits, const Box& box, HighBits& high) {
     const std::int64_t first = box.begin[0] + 1;  // position p is voxel p - 1
     const std::int64_t word = first / 64, shift = first % 64;

@@ -15,6 +15,9 @@ inline constexpr std::int64_t kBrickRows = kBrickSize[1] * kBrickSize[2];
 /// Bit x of row y + 8 z: is the sample High? Beyond the size of a smaller brick: zeros.
 using BrickBits = std::array<std::uint16_t, static_cast<std::size_t>(kBrickRows)>;
 
+/// A bit for every sample of a brick.
+[[nodiscard]] BrickBits whole_brick(const Index3& size);
+
 /// samples: of the slot of a brick (bricks/brick_layout.h), row by row, all slices of a full brick. min: smallest value of a High sample.
 /// T: a sample type.
 template <class T>

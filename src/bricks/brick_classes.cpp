@@ -112,7 +112,7 @@ BrickFlags with_halo(const BrickGrid& grid, BrickFlags of_bricks, std::uint8_t o
     return of_bricks;
 }
 
-void keep_joined(const BrickGrid& grid, const std::vector<BrickId>& homes, IdArray<BrickId, BrickClass>& classes) {
+BrickFlags joined_bricks(const BrickGrid& grid, const std::vector<BrickId>& homes, IdSpan<BrickId, const BrickClass> classes) {
     BrickFlags joined(classes.size(), 0);
     std::vector<BrickId> pending;
     const auto join = [&](BrickId brick) {
@@ -131,9 +131,21 @@ void keep_joined(const BrickGrid& grid, const std::vector<BrickId>& homes, IdArr
             }
         }
     }
-    for (const BrickId brick : grid.bricks()) {
-        if (!joined[brick]) classes[brick] = BrickClass::low;
+    return joined;
+}
+
+void make_others_low(const BrickPart& part, const BrickFlags& kept, IdArray<BrickId, BrickClass>& classes) {
+    for (const BrickId b : classes.ids()) {
+        if (!kept[part.number(b)]) classes[b] = BrickClass::low;
     }
+}
+
+std::vector<BrickId> divided_bricks(const BrickPart& part, const LevelBricks& bricks) {
+    std::vector<BrickId> divided;
+    for (const BrickId b : part.grid.bricks()) {
+        if (bricks.classes[b] == BrickClass::divided) divided.push_back(part.number(b));
+    }
+    return divided;
 }
 
 std::vector<BrickId> flagged(IdSpan<BrickId, const std::uint8_t> flags) {

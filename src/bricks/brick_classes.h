@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "bricks/brick_bits.h"
+#include "bricks/brick_part.h"
 #include "levelset/high_bits.h"
 #include "levelset/level_bricks.h"
 
@@ -28,10 +29,16 @@ inline void put_bits(std::uint64_t* row, std::int64_t p, std::uint64_t bits) {
 /// The flags of bricks, and of those around them; outside: those of what lies beyond the ends of the grid.
 [[nodiscard]] BrickFlags with_halo(const BrickGrid& grid, BrickFlags flags, std::uint8_t outside = 0);
 
-/// Makes bricks Low that no chain of bricks with Highs joins with one of `homes`; in it, neighbours share a corner at least. An object of
-/// the isovalue lies in the chains of its brick, so that it and all cells around it stay as they are. Cost: O(bricks).
-void keep_joined(const BrickGrid& grid, const std::vector<BrickId>& homes, IdArray<BrickId, BrickClass>& classes);
+/// Flags bricks that a chain of bricks with Highs joins with one of `homes`; in it, neighbours share a corner at least. An object of the
+/// isovalue lies in the chains of its brick, so that it and all cells around it stay as they are where all other bricks count as Low.
+/// Cost: O(bricks).
+[[nodiscard]] BrickFlags joined_bricks(const BrickGrid& grid, const std::vector<BrickId>& homes, IdSpan<BrickId, const BrickClass> classes);
 
+/// Where part of a grid is classified: bricks that are not kept are Low. kept: of the whole grid.
+void make_others_low(const BrickPart& part, const BrickFlags& kept, IdArray<BrickId, BrickClass>& classes);
+
+/// In ascending order; numbers of the whole grid.
+[[nodiscard]] std::vector<BrickId> divided_bricks(const BrickPart& part, const LevelBricks& bricks);
 /// The flagged bricks, in ascending order.
 [[nodiscard]] std::vector<BrickId> flagged(IdSpan<BrickId, const std::uint8_t> flags);
 

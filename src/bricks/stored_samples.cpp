@@ -12,6 +12,7 @@
 #include "bricks/brick_layout.h"
 #include "bricks/brick_part.h"
 #include "bricks/brick_samples.h"
+#include "bricks/region_growing.h"
 #include "field/require_isovalue.h"
 #include "isoatlas/error.h"
 #include "levelset/threshold.h"
@@ -32,14 +33,28 @@ public:
 
     [[nodiscard]] SampleView view() const override { return {info_, array_.data(), layout_.by_voxel()}; }
 
-    [[nodiscard]] StoredLevel classify(double tau, const std::vector<std::int64_t>& objects, const Context& context,
-                                       LevelQuery& query) override {
+    [[nodiscard]] StoredLevel classify(double tau, const BrickFlags& kept, const Context& context, LevelQuery& query) override {
+        require_isovalue(tau);
+        const std::lock_guard lock(mutex_);
+        return classify_part(BrickPart(grid_), kept, threshold_for<T>(tau), context, query).level;
+    }
+
+    [[nodiscard]] ObjectBricks bricks_of_objects(double tau, const std::vector<std::int64_t>& voxels, const Context& context,
+                                                 LevelQuery& query, std::int64_t worth) override {
         require_isovalue(tau);
         const std::lock_guard lock(mutex_);
         const Threshold<T> threshold = threshold_for<T>(tau);
+        LevelBricks bricks = bricks_of(BrickPart(grid_), threshold, context.threads);
         std::vector<BrickId> homes;
-        for (const std::int64_t voxel : objects) homes.push_back(grid_.brick(BrickGrid::place_of(info_.extent.voxel(voxel))));
-        return classify_part(BrickPart(grid_), homes, threshold, context, query).level;
+        for (const std::int64_t voxel : voxels) homes.push_back(grid_.brick(BrickGrid::place_of(info_.extent.voxel(voxel))));
+        BrickFlags joined = joined_bricks(grid_, homes, bricks.classes);
+        make_others_low(BrickPart(grid_), joined, bricks.classes);
+        const std::vector<BrickId> divided = divided_bricks(BrickPart(grid_), bricks);
+        if (cache_.absent(divided) < worth) return {std::move(joined)};
+        RegionGrowing region(grid_, bricks.classes);
+        for (const std::int64_t voxel : voxels) region.seed(info_.extent.voxel(voxel));
+        if (!read_region(region, std::ssize(divided) / 3, threshold.min, context, query)) return {std::move(joined)};
+        return {region.touched(), true};
     }
 
     std::int64_t reclassify(KeptLevel& kept, double tau, const Context& context, LevelQuery& query) override {
@@ -67,12 +82,13 @@ public:
 
     [[nodiscard]] const BrickGrid& grid() const override { return grid_; }
 
-    [[nodiscard]] StoredWindow classify_window(double tau, const Box& bricks, const Context& context, LevelQuery& query) override {
+    [[nodiscard]] StoredWindow classify_window(double tau, const Box& bricks, const BrickFlags& kept, const Context& context,
+                                               LevelQuery& query) override {
         LevelQuery own;  // copied samples need no lease; destroyed after the lock
         const std::lock_guard lock(mutex_);
         const Threshold<T> threshold = threshold_for<T>(tau);
         const BrickPart part(grid_, bricks);
-        Classified classified = classify_part(part, {}, threshold, context, own);
+        Classified classified = classify_part(part, kept, threshold, context, own);
         StoredWindow result{info_, {info_.extent, part.origin}, {}, std::move(classified.level)};
         result.info.extent = part.grid.extent;
         add_extremes(part, 1, result.level.bricks);
@@ -211,11 +227,26 @@ private:
         std::vector<BrickId> needed;         ///< bricks whose samples a surface with normals needs; they are present
     };
 
-    /// homes: of keep_joined(), bricks of the part; empty: all bricks count.
-    Classified classify_part(const BrickPart& part, const std::vector<BrickId>& homes, const Threshold<T>& threshold,
-                             const Context& context, LevelQuery& query) {
+    /// Each round reads a sixth of what was read before, so that there are few rounds however long the region is. Returns whether it is
+    /// complete: not, when it takes more than `most` bricks.
+    bool read_region(RegionGrowing& region, std::int64_t most, T min, const Context& context, LevelQuery& query) {
+        constexpr std::int64_t kReadTogether = 32;  // bricks
+        std::int64_t read = 0;
+        for (std::vector<BrickId> missing = region.grow(); !missing.empty(); missing = region.grow()) {
+            region.extend(missing, std::max(kReadTogether, read / 6));
+            read += std::ssize(missing);
+            if (read > most) return false;
+            load(missing, context, query);
+            for (const BrickId b : missing) region.add(b, bits_of_brick(samples() + layout_.first_sample(b), grid_.box(b).size(), min));
+        }
+        return true;
+    }
+
+    /// kept: of the whole grid; all other bricks count as Low. Empty: none does.
+    Classified classify_part(const BrickPart& part, const BrickFlags& kept, const Threshold<T>& threshold, const Context& context,
+                             LevelQuery& query) {
         LevelBricks around = bricks_of(part, threshold, context.threads);
-        if (!homes.empty()) keep_joined(part.grid, homes, around.classes);
+        if (!kept.empty()) make_others_low(part, kept, around.classes);
         HighBits bits(around);
         Classified result{
             {std::move(bits), std::move(around)}, IdArray<BrickId, BrickFaces>(static_cast<std::size_t>(part.grid.count())), {}};
@@ -232,7 +263,7 @@ private:
 
     std::int64_t classify_anew(KeptLevel& kept, const Threshold<T>& threshold, const Context& context, LevelQuery& query) {
         kept.level.reset();  // its memory is used again
-        Classified all = classify_part(BrickPart(grid_), {}, threshold, context, query);
+        Classified all = classify_part(BrickPart(grid_), BrickFlags(), threshold, context, query);
         kept.beside = BrickFlags(all.level.bricks.classes.size(), 0);
         for (const BrickId b : all.needed) kept.beside[b] = all.level.bricks.classes[b] != BrickClass::divided;
         kept.level = std::move(all.level);
@@ -250,15 +281,6 @@ private:
             if (near[b]) kept.beside[b] = touching[b] && touches_surface(high, bricks, kept.sides, b);
         });
         hold(flagged(kept.beside), context, query);
-    }
-
-    /// Indices in the whole grid.
-    static std::vector<BrickId> divided_bricks(const BrickPart& part, const LevelBricks& bricks) {
-        std::vector<BrickId> divided;
-        for (const BrickId b : part.grid.bricks()) {
-            if (bricks.classes[b] == BrickClass::divided) divided.push_back(part.number(b));
-        }
-        return divided;
     }
 
     /// Bricks with a sample whose class differs between two isovalues.
@@ -279,14 +301,9 @@ private:
                 if (classes[b] == BrickClass::divided)
                     kept.sides[b] = fill_brick(high, box, b, min);
                 else
-                    put_brick(classes[b] == BrickClass::high ? all_high(box) : BrickBits{}, box, high);
+                    put_brick(classes[b] == BrickClass::high ? whole_brick(box.size()) : BrickBits{}, box, high);
             }
         });
-    }
-    static BrickBits all_high(const Box& box) {
-        BrickBits bits;
-        bits.fill(static_cast<std::uint16_t>(0xffff >> (kBrickRow - box.size(0))));
-        return bits;
     }
 
     /// Classification by the ranges of the bricks alone.

@@ -24,6 +24,12 @@ struct StoredLevel {
     LevelBricks bricks;
 };
 
+/// Bricks that contain some objects and all cells around them: where all others count as Low, the surfaces of these objects are the same.
+struct ObjectBricks {
+    BrickFlags bricks;      ///< empty: all of them
+    bool is_tight = false;  ///< as far as the objects' samples reach (bricks/region_growing.h), and not as whole bricks may join them
+};
+
 /// Samples and classes of some bricks, as a volume of its own.
 struct StoredWindow {
     VolumeInfo info;
@@ -50,6 +56,9 @@ struct LevelQuery : IoCounters {
     BrickLease held{};
 };
 
+/// Bricks that take longer to be read than rounds of reading do.
+inline constexpr std::int64_t kWorthGrowing = 2048;
+
 class StoredSamples {
 public:
     virtual ~StoredSamples() = default;
@@ -57,17 +66,20 @@ public:
     /// Classes of all samples at tau, and every sample that a surface with normals needs made present in view()
     /// as long as the query lives.
     /// Cost: the bricks that are not present yet, and writing a bit a voxel. Afterwards only candidate words (levelset/candidate_words.h)
-    /// need to be processed. objects: voxels of the objects that are wanted; others, as far as whole bricks lie between, count as Low and
-    /// are not read. Empty: all.
-    [[nodiscard]] virtual StoredLevel classify(double tau, const std::vector<std::int64_t>& objects, const Context& context,
-                                               LevelQuery& query) = 0;
+    /// need to be processed. kept: all other bricks count as Low; empty: none does.
+    [[nodiscard]] virtual StoredLevel classify(double tau, const BrickFlags& kept, const Context& context, LevelQuery& query) = 0;
+    /// Of the objects at tau that contain these voxels. worth: if at least so many divided bricks that may be joined with them are not
+    /// present, bricks are read, in rounds, to learn how far the objects reach, up to a third of those.
+    [[nodiscard]] virtual ObjectBricks bricks_of_objects(double tau, const std::vector<std::int64_t>& voxels, const Context& context,
+                                                         LevelQuery& query, std::int64_t worth) = 0;
     /// The same for another isovalue than that of `kept`, which is updated: only bricks with a sample between the two are reclassified.
     /// Returns their number. When it throws, `kept` must not be used again.
     virtual std::int64_t reclassify(KeptLevel& kept, double tau, const Context& context, LevelQuery& query) = 0;
     /// Brick data for representatives (levelset/component_representatives.h) at an isovalue.
     virtual void add_extremes(LevelBricks& bricks, const Context& context) const = 0;
     /// classify() for the bricks of a box alone (bricks, not samples), with all data for representatives. Cost: proportional to the box.
-    [[nodiscard]] virtual StoredWindow classify_window(double tau, const Box& bricks, const Context& context, LevelQuery& query) = 0;
+    [[nodiscard]] virtual StoredWindow classify_window(double tau, const Box& bricks, const BrickFlags& kept, const Context& context,
+                                                       LevelQuery& query) = 0;
     /// Bounds of what classify() would read of a newly opened store: at least the divided bricks, at most also those adjacent to bricks of
     /// another class. Reads nothing.
     struct Foreseen {

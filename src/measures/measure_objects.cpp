@@ -88,10 +88,10 @@ std::vector<ObjectMeasures> measure_objects(const Atlas& atlas, double tau, cons
         return measured(surface, info, sums, options.thickness, context);
     };
     if (objects.size() == 1) {  // from its own part of the store, unless that is most of it
-        const std::optional<StoredWindow> window = window_of_object(samples, objects[0], tau, tunnel_height, context, spent);
+        const std::optional<StoredWindow> window = part_of_object(samples, objects[0], tau, tunnel_height, false, context, spent).window;
         if (window) return measure(find_components(window->at(tau), tunnel_height, context), window->window.origin);
     }
-    StoredLevel stored = samples.classify(tau, {}, context, spent);
+    StoredLevel stored = samples.classify(tau, BrickFlags(), context, spent);
     samples.add_extremes(stored.bricks, context);
     const auto sample = [&](std::int64_t voxel) { return samples.sample(voxel, spent); };
     return measure(find_components({samples.view(), tau, stored.high, &stored.bricks, {}, sample}, tunnel_height, context), {0, 0, 0});

@@ -35,6 +35,7 @@
 
 #include "isoatlas/atlas.h"
 #include "isoatlas/context.h"
+#include "isoatlas/octree_front.h"
 #include "isoatlas/server.h"
 #include "preview/wire_mesh.h"
 #include "server/cards.h"
@@ -115,9 +116,11 @@ private:
     [[nodiscard]] Surface extract(const Atlas& atlas, double tau, SurfaceOptions options, const Context& context) const;
     [[nodiscard]] std::int64_t max_triangles() const;
     [[nodiscard]] WireMesh wire(const Surface& surface, std::int64_t max, const Context& context) const;
-    /// With the topology of the exact surface, by blocks of an octree; nothing: it has no more triangles, or blocks are not enough.
-    [[nodiscard]] std::optional<WireMesh> front_of(const Atlas& atlas, const Surface& exact, SurfaceOptions options, std::int64_t triangles,
-                                                   const Context& context) const;
+    [[nodiscard]] WireMesh wire_front(const FrontSurface& front, const Context& context) const;
+    /// The exact surface, if it has no more triangles than wanted; one with its topology by blocks of an octree, if that has no more; the
+    /// exact one, reduced without a promise.
+    [[nodiscard]] WireMesh unprepared(const Atlas& atlas, double tau, const SurfaceOptions& options, std::int64_t triangles,
+                                      const Context& context) const;
     /// A surface of at most so many triangles, if it can be reduced to so many: a level of detail where the store has it.
     [[nodiscard]] WireMesh mesh_of(const Atlas& atlas, double tau, const SurfaceOptions& options, const MeshWanted& wanted,
                                    const Context& context);

@@ -6,7 +6,6 @@
 
 #include "formats/common/byte_writer.h"
 #include "isoatlas/isovalue.h"
-#include "isoatlas/octree_front.h"
 #include "isoatlas/polarity.h"
 #include "server/answers.h"
 #include "server/download.h"
@@ -64,6 +63,15 @@ std::optional<Viewpoint> viewpoint_of(QueryParameters& words, const Geometry& ge
     return from;
 }
 
+/// What make() returns; nullopt where that has more triangles than wanted.
+template <class Make>
+auto if_it_fits(const Make& make) -> std::optional<decltype(make())> try {
+    return make();
+} catch (const Error& error) {
+    if (error.reason() != Reason::too_many_triangles) throw;
+    return std::nullopt;
+}
+
 }  // namespace
 
 void Service::prepare(const Context& context) {
@@ -90,11 +98,7 @@ bool Service::is_first(const Atlas& atlas, double tau, const SurfaceOptions& opt
 
 WireMesh Service::mesh_of(const Atlas& atlas, double tau, const SurfaceOptions& options, const MeshWanted& wanted, const Context& context) {
     const std::optional<SeenSurface> level = levels_.find(atlas, options, tau, wanted);
-    if (!level) {
-        const Surface exact = extract(atlas, tau, options, context);
-        std::optional<WireMesh> mesh = front_of(atlas, exact, options, wanted.triangles, context);
-        return mesh ? std::move(*mesh) : wire(exact, wanted.triangles, context);
-    }
+    if (!level) return unprepared(atlas, tau, options, wanted.triangles, context);
     WireMesh mesh = wire(level->simplified.surface, wanted.triangles, context);
     if (mesh.coarse) return mesh;  // reduced once more, without a promise
     mesh.coarse = level->simplified.distance > 0;
@@ -103,17 +107,20 @@ WireMesh Service::mesh_of(const Atlas& atlas, double tau, const SurfaceOptions& 
     return mesh;
 }
 
-std::optional<WireMesh> Service::front_of(const Atlas& atlas, const Surface& exact, SurfaceOptions options, std::int64_t triangles,
-                                          const Context& context) const {
-    if (static_cast<std::int64_t>(exact.triangles.size()) <= triangles) return std::nullopt;
-    options.max_triangles = triangles;
-    FrontSurface front;
-    try {
-        front = atlas.extract_front(exact.tau, {.max_level = kFrontLevel, .triangles = triangles}, options, context);
-    } catch (const Error& error) {
-        if (error.reason() != Reason::too_many_triangles) throw;
-        return std::nullopt;
+WireMesh Service::unprepared(const Atlas& atlas, double tau, const SurfaceOptions& options, std::int64_t triangles,
+                             const Context& context) const {
+    SurfaceOptions few = options;
+    few.max_triangles = std::min(triangles, max_triangles());
+    if (const auto exact = if_it_fits([&] { return atlas.extract(tau, few, context); })) return wire(*exact, 0, context);
+    if (atlas.info().extent.rank == 3) {
+        const FrontOptions blocks{.max_level = kFrontLevel, .triangles = few.max_triangles};
+        if (const auto front = if_it_fits([&] { return atlas.extract_front(tau, blocks, few, context); }))
+            return wire_front(*front, context);
     }
+    return wire(extract(atlas, tau, options, context), triangles, context);
+}
+
+WireMesh Service::wire_front(const FrontSurface& front, const Context& context) const {
     WireMesh mesh = wire(front.surface, 0, context);
     const auto widest = std::ranges::find_if(front.leaves.rbegin(), front.leaves.rend(), [](std::int64_t count) { return count > 0; });
     mesh.coarse = true;  // both surfaces of a block lie in it

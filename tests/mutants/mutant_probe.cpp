@@ -13,12 +13,14 @@
 #include "base/atomic_file.h"
 #include "base/temporary_name.h"
 #include "bricks/brick_classes.h"
+#include "bricks/region_growing.h"
 #include "isoatlas/error.h"
 #include "isoatlas/surface.h"
 #include "isoatlas/verify.h"
 #include "mutants/coarser_surfaces.h"
 #include "mutants/damaged_inputs.h"
 #include "oracle/bodies.h"
+#include "oracle/brick_scene.h"
 #include "oracle/compare.h"
 #include "oracle/finer.h"
 #include "oracle/volumes.h"
@@ -204,10 +206,29 @@ void check_joined_bricks() {
                 }
             }
         }
-        isoatlas::keep_joined(grid, {home}, classes);
+        const isoatlas::BrickFlags found = isoatlas::joined_bricks(grid, {home}, classes);
         for (const BrickId b : grid.bricks()) {
-            if ((classes[b] != BrickClass::low) != joined.contains(b.number())) fail("bricks of an object are missing or too many", {});
+            if ((found[b] != 0) != joined.contains(b.number())) fail("bricks of an object are missing or too many", {});
         }
+    }
+}
+
+/// A region grows through all bricks that its samples enter, in every direction, and through no others.
+void check_region_growing() {
+    std::mt19937 random(12);
+    for (int round = 0; round < 20; ++round) {
+        oracle::Scene scene{isoatlas::BrickGrid({3, {40, 20, 21}}), {}};
+        for (std::int64_t i = 0; i < scene.grid.extent.voxels(); ++i) scene.is_high.push_back(random() % 10 == 0);
+        isoatlas::IdArray<isoatlas::BrickId, isoatlas::BrickClass> classes(static_cast<std::size_t>(scene.grid.count()));
+        for (const isoatlas::BrickId b : scene.grid.bricks()) classes[b] = scene.class_of(b);
+        const isoatlas::Index3 seed{20, 10, 10};
+        scene.is_high[static_cast<std::size_t>(scene.grid.extent.index(seed))] = true;
+        isoatlas::RegionGrowing region(scene.grid, classes);
+        region.seed(seed);
+        for (std::vector<isoatlas::BrickId> missing = region.grow(); !missing.empty(); missing = region.grow()) {
+            for (const isoatlas::BrickId b : missing) region.add(b, scene.bits(b));
+        }
+        if (region.touched() != oracle::bricks_of_region(scene, {seed})) fail("a region does not grow as its samples do", {});
     }
 }
 
@@ -218,6 +239,7 @@ int main() try {
     check_requests();
     check_fingerprints();
     check_joined_bricks();
+    check_region_growing();
     check_predicates();
     if (const std::string promise = mutants::broken_promise_of_readers(); !promise.empty()) {
         std::printf("does not hold: %s\n", promise.c_str());

@@ -16,7 +16,7 @@ import tempfile
 # What the probe runs: rooms, and files of others.
 ROOMS = ("base", "geometry", "field", "critical", "tree", "zones", "analysis", "features", "persistence", "levelset", "mesh", "octree_front",
          "level_of_detail", "formats")
-FILES = ("server/request_head.cpp", "atlas/build_fingerprint.cpp", "bricks/brick_classes.cpp")
+FILES = ("server/request_head.cpp", "atlas/build_fingerprint.cpp", "bricks/brick_classes.cpp", "bricks/region_growing.cpp")
 
 
 def parse(path):

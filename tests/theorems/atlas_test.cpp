@@ -10,8 +10,11 @@
 #include <fstream>
 #include <thread>
 
+#include "atlas/access.h"
+#include "bricks/stored_samples.h"
 #include "field/brick_grid.h"
 #include "isoatlas/phantom.h"
+#include "mesh/extract_level.h"
 #include "oracle/difference.h"
 #include "oracle/stores.h"
 #include "store/brick_writer.h"
@@ -167,6 +170,76 @@ TEST_F(Stores, ReadForALongObjectOnlyWhatIsJoinedWithIt) {
     EXPECT_FALSE(expected.points.empty());
     EXPECT_LT(2 * alone.bricks, whole.bricks);
     EXPECT_EQ(front.bricks, alone.bricks);
+}
+
+/// A surface of some objects alone, of the bricks that region growing finds.
+Surface of_region(const Atlas& atlas, double tau, const isoatlas::SurfaceOptions& options, isoatlas::ObjectBricks& bricks) {
+    isoatlas::StoredSamples& samples = isoatlas::AtlasAccess::samples(atlas);
+    isoatlas::LevelQuery query;
+    bricks = samples.bricks_of_objects(tau, options.objects, {}, query, 0);
+    isoatlas::StoredLevel level = samples.classify(tau, bricks.bricks, {}, query);
+    samples.add_extremes(level.bricks, {});
+    const auto sample = [&](std::int64_t voxel) { return samples.sample(voxel, query); };
+    return isoatlas::extract_level({samples.view(), tau, level.high, &level.bricks, {}, sample},
+                                   {.interpolant = atlas.interpolant(), .surface = options}, {});
+}
+
+RC_GTEST_FIXTURE_PROP(Stores, GiveTheSameObjectsByRegionGrowing, ()) {
+    const isoatlas::PhantomOptions field{.size = *rc::gen::inRange<std::int64_t>(40, 90),
+                                         .seed = *rc::gen::inRange<std::uint64_t>(1, 1000),
+                                         .noise = *rc::gen::element(0.0, 0.05, 0.2),
+                                         .quantise = *rc::gen::inRange<std::int64_t>(3, 40)};
+    const Volume volume = isoatlas::make_phantom("random-field", field);
+    const isoatlas::AnalysisOptions how{.interpolant = *arbitrary_interpolant()};
+    isoatlas::build_atlas(path_, volume, how);
+    const Atlas atlas(path_);
+    for (int query = 0; query < 3; ++query) {
+        const double tau = static_cast<double>(*rc::gen::inRange<std::int64_t>(1, field.quantise)) - *rc::gen::element(0.0, 0.5);
+        const isoatlas::Cut cut = isoatlas::cut(volume, tau, {.interpolant = how.interpolant});
+        if (cut.objects.empty()) continue;
+        isoatlas::SurfaceOptions options;
+        options.ids = false;
+        options.shell = *rc::gen::element(isoatlas::ShellChoice::all, isoatlas::ShellChoice::outer, isoatlas::ShellChoice::inner);
+        for (int i = *rc::gen::inRange(1, 3); i > 0; --i)
+            options.objects.push_back(cut.objects[*rc::gen::inRange<std::size_t>(0, cut.objects.size())].id);
+        if (*rc::gen::inRange(0, 2) == 0) atlas.clear_cache();
+        isoatlas::ObjectBricks bricks;
+        RC_ASSERT(same(of_region(atlas, tau, options, bricks),
+                       isoatlas::extract(volume, tau, {.interpolant = how.interpolant, .surface = options})));
+        RC_CLASSIFY(bricks.is_tight);
+    }
+}
+
+/// A helix up to z = height among balls: every brick has a part of a ball.
+Volume helix_and_balls(std::int64_t size, double height) {
+    std::vector<float> samples;
+    const double middle = static_cast<double>(size) / 2;
+    for (std::int64_t i = 0; i < size * size * size; ++i) {
+        const double x = static_cast<double>(i % size), y = static_cast<double>(i / size % size), z = static_cast<double>(i / size / size);
+        const double turn = z / 40;
+        const double above = std::max(z - height, 0.0);
+        const double helix = std::hypot(x - middle - 0.7 * middle * std::cos(turn), y - middle - 0.7 * middle * std::sin(turn), above);
+        const auto to_ball = [](double at) { return std::abs(std::remainder(at - 4, 8)); };
+        const double ball = std::hypot(to_ball(x), to_ball(y), to_ball(z));
+        samples.push_back(static_cast<float>(std::max(4 - helix, helix < 9 ? -9 : 3 - ball)));
+    }
+    return isoatlas::make_volume<float>({3, {size, size, size}}, samples);
+}
+
+TEST_F(Stores, ReadForALongObjectOnlyWhereItIs) {
+    for (const double height : {144.0, 50.0}) {  // its box is the volume, or less than half of it
+        const Volume volume = helix_and_balls(144, height);
+        isoatlas::build_atlas(path_, volume);
+        const isoatlas::Cut cut = isoatlas::cut(volume, 1.5);
+        const auto helix = std::ranges::max_element(cut.objects, {}, &isoatlas::CutObject::voxels);
+        isoatlas::SurfaceOptions options;
+        options.objects = {helix->id};
+        options.ids = false;
+        isoatlas::QueryCost whole, alone;
+        (void)Atlas(path_).extract(1.5, {}, {}, &whole);
+        EXPECT_TRUE(same(Atlas(path_).extract(1.5, options, {}, &alone), isoatlas::extract(volume, 1.5, {.surface = options})));
+        EXPECT_LT(4 * alone.bricks, whole.bricks);
+    }
 }
 
 RC_GTEST_FIXTURE_PROP(Stores, GiveTheSameTrees, ()) {

@@ -50,7 +50,7 @@ std::vector<CellId> BrickSearch::active(double tau, CellSearchCost& cost) {
     cost = {};
     data_->samples->clear();
     LevelQuery query;
-    const StoredLevel level = data_->samples->classify(tau, {}, {.threads = 1}, query);
+    const StoredLevel level = data_->samples->classify(tau, BrickFlags(), {.threads = 1}, query);
     std::vector<CellId> found = active_cells(level.high, data_->store.contents().volume.extent);
     cost.active = std::ssize(found);
     cost.cells = query.visited;

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
+#include "arbitrary_scene.h"
 #include "bricks/brick_classes.h"
 
 namespace isoatlas {
@@ -38,32 +39,6 @@ RC_GTEST_PROP(BrickBits, AreThoseOfSamples, ()) {
     bits_are_those_of_samples<double>(-1e300, 1e300);
 }
 
-/// A grid of a few bricks, with some samples of the other class than their surroundings.
-struct Scene {
-    BrickGrid grid;
-    std::vector<bool> is_high;  ///< per voxel
-
-    [[nodiscard]] bool contains(std::int64_t x, std::int64_t y, std::int64_t z) const {
-        const Index3& size = grid.extent.size;
-        return x >= 0 && y >= 0 && z >= 0 && x < size[0] && y < size[1] && z < size[2];
-    }
-    [[nodiscard]] bool at(std::int64_t x, std::int64_t y, std::int64_t z) const {
-        return contains(x, y, z) && is_high[static_cast<std::size_t>(grid.extent.index(x, y, z))];
-    }
-};
-
-Scene arbitrary_scene() {
-    Extent extent;
-    extent.rank = *rc::gen::element(2, 3, 3);
-    extent.size = {*rc::gen::inRange<std::int64_t>(1, 50), *rc::gen::inRange<std::int64_t>(1, 26),
-                   extent.rank == 2 ? 1 : *rc::gen::inRange<std::int64_t>(1, 26)};
-    Scene scene{BrickGrid(extent), {}};
-    scene.is_high.assign(static_cast<std::size_t>(extent.voxels()), *rc::gen::arbitrary<bool>());
-    const auto some = *rc::gen::container<std::vector<std::int64_t>>(rc::gen::inRange<std::int64_t>(0, extent.voxels()));
-    for (const std::int64_t voxel : some) scene.is_high[static_cast<std::size_t>(voxel)].flip();
-    return scene;
-}
-
 /// As bricks/brick_surroundings.h says in words, sample by sample. In an image nothing lies before or behind it. What lies outside the
 /// volume is reached by one step only: normals at its border are those of the border and read no samples.
 bool is_significant_to_another(const Scene& scene, const Box& box, bool own) {
@@ -93,20 +68,8 @@ RC_GTEST_PROP(BricksBesideASurface, HaveAnotherClassAmongWhatMatters, ()) {
     IdArray<BrickId, BrickFaces> sides(bricks.classes.size());
     for (const BrickId b : scene.grid.bricks()) {
         const Box box = scene.grid.box(b);
-        BrickBits bits{};
-        bool any = false, all = true;
-        for (std::int64_t z = box.begin[2]; z < box.end[2]; ++z) {
-            for (std::int64_t y = box.begin[1]; y < box.end[1]; ++y) {
-                for (std::int64_t x = box.begin[0]; x < box.end[0]; ++x) {
-                    const bool is_high = scene.at(x, y, z);
-                    any |= is_high, all &= is_high;
-                    if (is_high)
-                        bits[static_cast<std::size_t>(y - box.begin[1] + 8 * (z - box.begin[2]))] |=
-                            static_cast<std::uint16_t>(1 << (x - box.begin[0]));
-                }
-            }
-        }
-        bricks.classes[b] = all ? BrickClass::high : any ? BrickClass::divided : BrickClass::low;
+        const BrickBits bits = scene.bits(b);
+        bricks.classes[b] = scene.class_of(b);
         put_brick(bits, box, high);
         sides[b] = sides_of(bits, box.size());
     }
