@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "bricks/stored_samples.h"
 #include "levelset/components.h"
 
 namespace isoatlas {

@@ -2,19 +2,13 @@
 #pragma once
 
 #include <cstdint>
-#include <optional>
-
-#include "bricks/stored_samples.h"
 
 namespace isoatlas {
 
+class StoredSamples;
 struct Context;
-
-/// Where a query finds an object.
-struct ObjectPart {
-    std::optional<StoredWindow> window;  ///< nullopt: it is most of the volume, in the volume's bricks
-    ObjectBricks bricks;                 ///< as far as they are known
-};
+struct LevelQuery;
+struct ObjectPart;
 
 /// Grows a box of bricks around a High voxel until the voxel's object at tau lies inside, three samples away from every end that is not an
 /// end of the volume: then its contours and their normals are those of the volume. No window when the box would be most of the volume, or

@@ -60,10 +60,6 @@ std::vector<BrickId> BrickCache::admit(std::span<const BrickId> bricks, BrickLea
     return missing;
 }
 
-std::int64_t BrickCache::absent(std::span<const BrickId> bricks) const {
-    return std::ranges::count_if(bricks, [&](BrickId b) { return !state_[b].present; });
-}
-
 void BrickCache::settle(std::span<const BrickId> bricks) {
     for (const BrickId b : bricks) state_[b].present = true;
 }

@@ -41,8 +41,6 @@ public:
     /// Allocates and leases bricks, and returns those that are not present: the caller fills them, then calls settle(), or abandon() on
     /// failure. Unleased bricks are evicted when the budget is exceeded; leased ones may exceed it.
     [[nodiscard]] std::vector<BrickId> admit(std::span<const BrickId> bricks, BrickLease& lease);
-    /// How many bricks are not present.
-    [[nodiscard]] std::int64_t absent(std::span<const BrickId> bricks) const;
     void settle(std::span<const BrickId> bricks);
     void abandon(std::span<const BrickId> bricks);
 

@@ -50,7 +50,7 @@ public:
         BrickFlags joined = joined_bricks(grid_, homes, bricks.classes);
         make_others_low(BrickPart(grid_), joined, bricks.classes);
         const std::vector<BrickId> divided = divided_bricks(BrickPart(grid_), bricks);
-        if (cache_.absent(divided) < worth) return {std::move(joined)};
+        if (std::ssize(divided) < worth) return {std::move(joined)};
         RegionGrowing region(grid_, bricks.classes);
         for (const std::int64_t voxel : voxels) region.seed(info_.extent.voxel(voxel));
         if (!read_region(region, std::ssize(divided) / 3, threshold.min, context, query)) return {std::move(joined)};

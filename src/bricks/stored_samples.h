@@ -8,6 +8,7 @@
 
 #include <memory>
 #include <mutex>
+#include <optional>
 
 #include "bricks/brick_bits.h"
 #include "bricks/brick_cache.h"
@@ -42,6 +43,12 @@ struct StoredWindow {
     }
 };
 
+/// Where an object lies.
+struct ObjectPart {
+    std::optional<StoredWindow> window;  ///< nullopt: it is most of the volume
+    ObjectBricks bricks;                 ///< as far as they are known
+};
+
 /// The classes at an isovalue, kept for an incremental update at the next one.
 struct KeptLevel {
     std::optional<StoredLevel> level{};  ///< none yet
@@ -68,8 +75,8 @@ public:
     /// Cost: the bricks that are not present yet, and writing a bit a voxel. Afterwards only candidate words (levelset/candidate_words.h)
     /// need to be processed. kept: all other bricks count as Low; empty: none does.
     [[nodiscard]] virtual StoredLevel classify(double tau, const BrickFlags& kept, const Context& context, LevelQuery& query) = 0;
-    /// Of the objects at tau that contain these voxels. worth: if at least so many divided bricks that may be joined with them are not
-    /// present, bricks are read, in rounds, to learn how far the objects reach, up to a third of those.
+    /// Of the objects at tau that contain these voxels. worth: if at least so many divided bricks may be joined with them, bricks are
+    /// read, in rounds, to learn how far the objects reach, up to a third of those. The same answer whatever is present.
     [[nodiscard]] virtual ObjectBricks bricks_of_objects(double tau, const std::vector<std::int64_t>& voxels, const Context& context,
                                                          LevelQuery& query, std::int64_t worth) = 0;
     /// The same for another isovalue than that of `kept`, which is updated: only bricks with a sample between the two are reclassified.
