@@ -89,7 +89,7 @@ struct Atlas::Data {
     /// cheaper, or the voxel lies in no object.
     template <class Extract>
     std::optional<Surface> extract_object(double tau, ExtractOptions options, const Context& context, QueryCost* cost, Extract&& extract,
-                                          ObjectBricks& bricks) {
+                                          BrickFlags& bricks) {
         LevelQuery spent;
         const double height = tunnel_height_of(options.interpolant, options.tunnel_height);
         std::vector<std::int64_t>& chosen = options.surface.objects;
@@ -122,11 +122,11 @@ struct Atlas::Data {
     /// Runs query(level, active): sets the number of active cells; may be null. wanted: of wanted_objects(); bricks: theirs, if known.
     template <class Query>
     auto at_level(double tau, const std::vector<std::int64_t>& wanted, bool with_representatives, const Context& context, QueryCost* cost,
-                  Query&& query, ObjectBricks bricks = {}) {
+                  Query&& query, BrickFlags bricks = {}) {
         LevelQuery spent;
         std::int64_t active = 0;
-        if (!wanted.empty() && bricks.bricks.empty()) bricks = samples->bricks_of_objects(tau, wanted, context, spent, kWorthGrowing);
-        StoredLevel level = samples->classify(tau, bricks.bricks, context, spent);
+        if (!wanted.empty() && bricks.empty()) bricks = samples->bricks_of_objects(tau, wanted, context, spent, kWorthGrowing).bricks;
+        StoredLevel level = samples->classify(tau, bricks, context, spent);
         if (with_representatives) samples->add_extremes(level.bricks, context);
         const auto sample = [&](std::int64_t voxel) { return samples->sample(voxel, spent); };
         auto answer = query(TauLevel{samples->view(), tau, level.high, &level.bricks, {}, sample}, cost == nullptr ? nullptr : &active);
@@ -178,7 +178,7 @@ Surface Atlas::extract(double tau, const SurfaceOptions& options, const Context&
         extract_level(level, how, context, surface, active);
         return surface;
     };
-    ObjectBricks bricks;
+    BrickFlags bricks;
     if (is_one_object(options) && std::isfinite(tau)) {
         std::optional<Surface> surface = data_->extract_object(tau, own, context, cost, extract, bricks);
         if (surface) return std::move(*surface);
@@ -196,7 +196,7 @@ FrontSurface Atlas::extract_front(double tau, const FrontOptions& options, const
     const auto extract = [&](const TauLevel& level, const ExtractOptions& how, std::int64_t* active) {
         return extract_front_level(level, options, how, context, active);
     };
-    ObjectBricks bricks;
+    BrickFlags bricks;
     if (is_one_object(surface) && std::isfinite(tau) && options.exact.empty() && !options.eye) {  // places would be those of the whole
         FrontSurface front;
         std::optional<Surface> object = data_->extract_object(

@@ -77,12 +77,12 @@ ObjectPart part_of_object(StoredSamples& samples, std::int64_t voxel, double tau
     alone.threads = 1;
     alone.progress = nullptr;
     while (2 * bricks.count() <= grid.count()) {
-        if (is_alone && bricks.count() > kSmallBox && part.bricks.bricks.empty()) {
-            part.bricks = samples.bricks_of_objects(tau, {voxel}, context, query, kWorthGrowing);
-            if (part.bricks.is_tight) {
-                bricks = box_around(part.bricks.bricks, grid);
-                if (2 * bricks.count() <= grid.count())
-                    part.window = samples.classify_window(tau, bricks, part.bricks.bricks, alone, query);
+        if (is_alone && bricks.count() > kSmallBox && part.bricks.empty()) {
+            ObjectBricks found = samples.bricks_of_objects(tau, {voxel}, context, query, kWorthGrowing);
+            part.bricks = std::move(found.bricks);
+            if (found.is_tight) {
+                bricks = box_around(part.bricks, grid);
+                if (2 * bricks.count() <= grid.count()) part.window = samples.classify_window(tau, bricks, part.bricks, alone, query);
                 return part;
             }
         }

@@ -122,14 +122,9 @@ BrickFlags joined_bricks(const BrickGrid& grid, const std::vector<BrickId>& home
     };
     for (const BrickId home : homes) join(home);
     while (!pending.empty()) {
-        const Index3 place = grid.place(pending.back());
+        const BrickId brick = pending.back();
         pending.pop_back();
-        const Index3 begin = max(place - 1, {0, 0, 0}), end = min(place + 2, grid.size);
-        for (std::int64_t z = begin[2]; z < end[2]; ++z) {
-            for (std::int64_t y = begin[1]; y < end[1]; ++y) {
-                for (std::int64_t x = begin[0]; x < end[0]; ++x) join(grid.brick({x, y, z}));
-            }
-        }
+        for_neighbours(grid, brick, join);
     }
     return joined;
 }

@@ -29,6 +29,20 @@ inline void put_bits(std::uint64_t* row, std::int64_t p, std::uint64_t bits) {
 /// The flags of bricks, and of those around them; outside: those of what lies beyond the ends of the grid.
 [[nodiscard]] BrickFlags with_halo(const BrickGrid& grid, BrickFlags flags, std::uint8_t outside = 0);
 
+/// Calls visit(brick) for each brick that shares a corner at least with this one.
+template <class Visit>
+void for_neighbours(const BrickGrid& grid, BrickId brick, const Visit& visit) {
+    const Index3 place = grid.place(brick), begin = max(place - 1, {0, 0, 0}), end = min(place + 2, grid.size);
+    for (std::int64_t z = begin[2]; z < end[2]; ++z) {
+        for (std::int64_t y = begin[1]; y < end[1]; ++y) {
+            for (std::int64_t x = begin[0]; x < end[0]; ++x) {
+                const BrickId neighbour = grid.brick({x, y, z});
+                if (neighbour != brick) visit(neighbour);
+            }
+        }
+    }
+}
+
 /// Flags bricks that a chain of bricks with Highs joins with one of `homes`; in it, neighbours share a corner at least. An object of the
 /// isovalue lies in the chains of its brick, so that it and all cells around it stay as they are where all other bricks count as Low.
 /// Cost: O(bricks).

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "bricks/brick_classes.h"
+
 namespace isoatlas {
 namespace {
 
@@ -111,18 +113,11 @@ void RegionGrowing::reach_known(Brick& brick, const BrickBits& samples) {
 void RegionGrowing::spread(const Brick& from) {
     const BrickBitsAround around = with_neighbours(from.reached);
     const Index3 place = grid_.place(from.id);
-    for (std::int64_t z = -1; z <= 1; ++z) {
-        for (std::int64_t y = -1; y <= 1; ++y) {
-            for (std::int64_t x = -1; x <= 1; ++x) {
-                const Index3 d{x, y, z}, at = place + d;
-                if (d == Index3{0, 0, 0} || min(at, {0, 0, 0}) != Index3{0, 0, 0} || max(at + 1, grid_.size) != grid_.size) continue;
-                const BrickId neighbour = grid_.brick(at);
-                if (classes_[neighbour] == BrickClass::low) continue;
-                const BrickBits samples = in_neighbour(around, d);
-                if (!is_empty(samples)) reach(neighbour, samples);
-            }
-        }
-    }
+    for_neighbours(grid_, from.id, [&](BrickId neighbour) {
+        if (classes_[neighbour] == BrickClass::low) return;
+        const BrickBits samples = in_neighbour(around, grid_.place(neighbour) - place);
+        if (!is_empty(samples)) reach(neighbour, samples);
+    });
 }
 
 std::vector<BrickId> RegionGrowing::grow() {
@@ -142,19 +137,12 @@ void RegionGrowing::extend(std::vector<BrickId>& missing, std::int64_t count) co
     BrickFlags taken(classes_.size(), 0);
     for (const BrickId id : missing) taken[id] = 1;
     for (std::size_t next = 0; next < missing.size() && std::ssize(missing) < count; ++next) {
-        const Index3 place = grid_.place(missing[next]);
-        const Index3 begin = max(place - 1, {0, 0, 0}), end = min(place + 2, grid_.size);
-        for (std::int64_t z = begin[2]; z < end[2]; ++z) {
-            for (std::int64_t y = begin[1]; y < end[1]; ++y) {
-                for (std::int64_t x = begin[0]; x < end[0]; ++x) {
-                    const BrickId id = grid_.brick({x, y, z});
-                    const bool is_known = number_[id] >= 0 && bricks_[static_cast<std::size_t>(number_[id])].is_known;
-                    if (taken[id] || is_known || classes_[id] != BrickClass::divided) continue;
-                    taken[id] = 1;
-                    missing.push_back(id);
-                }
-            }
-        }
+        for_neighbours(grid_, missing[next], [&](BrickId id) {
+            const bool is_known = number_[id] >= 0 && bricks_[static_cast<std::size_t>(number_[id])].is_known;
+            if (taken[id] || is_known || classes_[id] != BrickClass::divided) return;
+            taken[id] = 1;
+            missing.push_back(id);
+        });
     }
     std::ranges::sort(missing);
 }

@@ -46,7 +46,7 @@ struct StoredWindow {
 /// Where an object lies.
 struct ObjectPart {
     std::optional<StoredWindow> window;  ///< nullopt: it is most of the volume
-    ObjectBricks bricks;                 ///< as far as they are known
+    BrickFlags bricks{};                 ///< of ObjectBricks; empty: they are not known
 };
 
 /// The classes at an isovalue, kept for an incremental update at the next one.
