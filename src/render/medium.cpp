@@ -53,12 +53,13 @@ BlockRanges ranges_of_regular(const Volume& volume, int threads) {
 template <class ShadeSegment>
 bool absorb(const SegmentEnds& ends, const Transfer& transfer, const ShadeSegment& shade, Gathered& gathered) {
     const auto& t = ends.t;
-    std::array<SegmentLight, kLanes> lights;
+    SegmentLights lights;
     for (unsigned left = transfer.lights(ends, lights); left != 0; left &= left - 1) {
         const auto i = static_cast<std::size_t>(std::countr_zero(left));
-        const double weight = (1 - gathered.opacity) * lights[i].opacity;
-        shade(lights[i].colour, weight, (t[i] + t[i + 1]) / 2);
-        gathered.light = along(gathered.light, weight, lights[i].colour);
+        const double weight = (1 - gathered.opacity) * lights.opacity[i];
+        Vec3 light{lights.colour[i][1], lights.colour[i][2], lights.colour[i][3]};
+        shade(light, weight, (t[i] + t[i + 1]) / 2);
+        gathered.light = along(gathered.light, weight, light);
         gathered.opacity += weight;
         if (gathered.opacity >= kEnough) return false;
     }

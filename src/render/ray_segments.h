@@ -12,6 +12,11 @@ namespace isoatlas {
 
 inline constexpr std::size_t kLanes = 8;  ///< segments evaluated at a time
 
+// Vectors of gcc and clang: lowered to what the processor has.
+using EightFloats = float __attribute__((vector_size(4 * kLanes)));
+using EightIntegers = std::int32_t __attribute__((vector_size(4 * kLanes)));
+using FourDoubles = double __attribute__((vector_size(32)));
+
 struct RaySegments {
     Vec3 origin, way;    ///< of the ray, in samples
     double step, first;  ///< begin of the first segment, in steps

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <cstring>
 #include <span>
 #include <string>
 
@@ -68,11 +69,11 @@ private:
     std::array<double, 4> sum_{};
 };
 
-using Doubles = double __attribute__((vector_size(32)));
+constexpr double kTooClose = 1e-3;  // table positions
 
-/// 1 - exp(-x) for x >= 0, to 1e-8.
-[[gnu::always_inline]] inline double swallowed(double x) {
-    if (x > 0.125) return 1 - std::exp(-x);
+constexpr double kLittle = 0.125;
+/// 1 - exp(-x) for 0 <= x <= kLittle, to 1e-8.
+[[gnu::always_inline]] inline double swallowed_little(double x) {
     return x * (1 - x * (1.0 / 2) * (1 - x * (1.0 / 3) * (1 - x * (1.0 / 4) * (1 - x * (1.0 / 5)))));
 }
 
@@ -84,6 +85,7 @@ Transfer::Transfer(const SceneVolume& volume, double length_unit, std::array<dou
     : low_(range[0]), places_per_value_(range[1] > range[0] ? kPlaces / (range[1] - range[0]) : 1), sums_(kPlaces + 1) {
     for (const OpacityTent& bump : volume.tents) add(curve_of(bump), length_unit);
     for (const TransferCurve& curve : volume.curves) add(curve, length_unit);
+    sums_.push_back(sums_.back());
     next_visible_.assign(kPlaces + 1, static_cast<std::uint16_t>(kPlaces));
     for (std::int64_t i = kPlaces - 1; i >= 0; --i)
         next_visible_[i] = sums_[i + 1][0] != sums_[i][0] ? static_cast<std::uint16_t>(i) : next_visible_[i + 1];
@@ -99,47 +101,72 @@ void Transfer::add(const TransferCurve& curve, double length_unit) {
     }
 }
 
-[[gnu::always_inline]] inline void Transfer::mean_between(double low, double high, Sums& mean) const {
+[[gnu::always_inline]] inline void Transfer::sums_at(std::int32_t entry, double part, FourDoubles& sums) const {
+    const auto from = __builtin_bit_cast(FourDoubles, sums_[entry]), to = __builtin_bit_cast(FourDoubles, sums_[entry + 1]);
+    sums = from + part * (to - from);
+}
+
+[[gnu::always_inline]] inline void Transfer::mean_between(double low, double high, FourDoubles& mean) const {
     // Closer than one table entry, differences of the sums would be lost in rounding: then averages over neighbouring entries.
-    if (high - low < 1e-3) {
+    if (high - low < kTooClose) {
         low = std::max(0.0, low - kWidening);
         high = std::min(high + kWidening, static_cast<double>(kPlaces));
     }
-    const auto i = std::min(static_cast<std::int64_t>(low), kPlaces - 1), j = std::min(static_cast<std::int64_t>(high), kPlaces - 1);
-    const double f = low - static_cast<double>(i), g = high - static_cast<double>(j), part = places_per_value_ / (high - low);
-    const auto from = __builtin_bit_cast(Doubles, sums_[i]), from_next = __builtin_bit_cast(Doubles, sums_[i + 1]),
-               to = __builtin_bit_cast(Doubles, sums_[j]), to_next = __builtin_bit_cast(Doubles, sums_[j + 1]);
-    const Doubles found = part * ((to + g * (to_next - to)) - (from + f * (from_next - from)));
-    __builtin_memcpy(mean.data(), &found, sizeof found);
+    FourDoubles from, to;
+    const auto i = static_cast<std::int32_t>(low), j = static_cast<std::int32_t>(high);
+    sums_at(i, low - static_cast<double>(i), from), sums_at(j, high - static_cast<double>(j), to);
+    mean = places_per_value_ / (high - low) * (to - from);
 }
 
 OpticalProperties Transfer::mean(double a, double b) const {
     const double low = std::min(a, b), high = std::max(a, b);
     if (high < static_cast<double>(next_visible_[static_cast<std::int64_t>(low)])) return {};
-    Sums mean;
+    FourDoubles mean;
     mean_between(low, high, mean);
     return {mean[0], {mean[1], mean[2], mean[3]}};
 }
 
-ISOATLAS_TARGET_CLONES unsigned Transfer::lights(const SegmentEnds& ends, std::span<SegmentLight, kLanes> found) const {
-    const auto& [t, places, count] = ends;
+[[gnu::always_inline]] inline unsigned Transfer::visible_between(const EightIntegers& first, const EightIntegers& second) const {
+    alignas(32) std::array<std::int32_t, kLanes> low, high;
+    const EightIntegers least = first < second ? first : second, most = first < second ? second : first;
+    std::memcpy(low.data(), &least, sizeof least), std::memcpy(high.data(), &most, sizeof most);
     unsigned bits = 0;
-    for (std::size_t i = 0; i < kLanes; ++i) {
-        const float low = std::min(places[i], places[i + 1]), high = std::max(places[i], places[i + 1]);
-        bits |= (high < static_cast<float>(next_visible_[static_cast<std::int32_t>(low)]) ? 0U : 1U) << i;
+    for (std::size_t i = 0; i < kLanes; ++i) bits |= static_cast<unsigned>(high[i] >= next_visible_[low[i]]) << i;
+    return bits;
+}
+
+ISOATLAS_TARGET_CLONES unsigned Transfer::lights(const SegmentEnds& ends, SegmentLights& found) const {
+    const auto& [t, places, count] = ends;
+    EightFloats last;  // ends of segments; read as they were written: their begins would wait for the memory
+    std::memcpy(&last, places.data() + 1, sizeof last);
+    const EightIntegers end = __builtin_convertvector(last, EightIntegers), front = EightIntegers{} + static_cast<std::int32_t>(places[0]),
+                        begin = __builtin_shufflevector(front, end, 0, 8, 9, 10, 11, 12, 13, 14);
+    unsigned bits = visible_between(begin, end) & ((1U << count) - 1);
+    if (bits == 0) return 0;
+    const EightFloats part = last - __builtin_convertvector(end, EightFloats);
+    std::array<double, kLanes> depth;
+    FourDoubles before, there;
+    sums_at(front[0], static_cast<double>(places[0] - static_cast<float>(front[0])), before);
+    for (std::size_t i = 0; i < kLanes; ++i, before = there) {
+        sums_at(end[i], static_cast<double>(part[i]), there);
+        const FourDoubles sums = there - before;
+        depth[i] = sums[0] / static_cast<double>(places[i + 1] - places[i]) * (places_per_value_ * (t[i + 1] - t[i]));
+        found.colour[i] = sums * (1 / sums[0]);
     }
-    bits &= (1U << count) - 1;
     for (unsigned left = bits; left != 0; left &= left - 1) {
         const auto i = static_cast<std::size_t>(std::countr_zero(left));
         const auto a = static_cast<double>(places[i]), b = static_cast<double>(places[i + 1]);
-        Sums mean;
-        mean_between(std::min(a, b), std::max(a, b), mean);
-        if (!(mean[0] > 0)) {
-            bits &= ~(1U << i);
-            continue;
+        if (std::abs(b - a) < kTooClose) {
+            FourDoubles mean;
+            mean_between(std::min(a, b), std::max(a, b), mean);
+            depth[i] = mean[0] * (t[i + 1] - t[i]), found.colour[i] = mean * (1 / mean[0]);
         }
-        const double per_extinction = 1 / mean[0];
-        found[i] = {swallowed(mean[0] * (t[i + 1] - t[i])), {mean[1] * per_extinction, mean[2] * per_extinction, mean[3] * per_extinction}};
+        if (!(depth[i] > 0)) bits &= ~(1U << i);
+    }
+    for (std::size_t i = 0; i < kLanes; ++i) found.opacity[i] = swallowed_little(depth[i]);
+    for (unsigned left = bits; left != 0; left &= left - 1) {
+        const auto i = static_cast<std::size_t>(std::countr_zero(left));
+        if (depth[i] > kLittle) found.opacity[i] = 1 - std::exp(-depth[i]);
     }
     return bits;
 }

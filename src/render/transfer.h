@@ -19,10 +19,10 @@ struct OpticalProperties {
     Vec3 glow{};  ///< extinction times colour
 };
 
-/// What a ray segment does to light by itself.
-struct SegmentLight {
-    double opacity = 0;
-    Vec3 colour{};
+/// What ray segments do to light by themselves.
+struct SegmentLights {
+    std::array<double, kLanes> opacity;
+    std::array<FourDoubles, kLanes> colour;  ///< the first is 1, then red, green, blue
 };
 
 class Transfer {
@@ -39,11 +39,11 @@ public:
         double zero, factor, last;
     };
     [[nodiscard]] Scale scale() const { return {low_, places_per_value_, static_cast<double>(kPlaces)}; }
-    /// Mean between two table positions, for a value that changes linearly between them (Engel, Kraus, Ertl, 2001, without attenuation
-    /// within the segment). Exact to 1/4096 of the range.
+    /// Mean between two table positions, 0 to kPlaces, for a value that changes linearly between them (Engel, Kraus, Ertl, 2001, without
+    /// attenuation within the segment). Exact to 1/4096 of the range.
     [[nodiscard]] OpticalProperties mean(double a, double b) const;
-    /// What segments do, from mean() and their lengths. Bit i: segment i is visible, and found[i] is set.
-    [[nodiscard]] unsigned lights(const SegmentEnds& ends, std::span<SegmentLight, kLanes> found) const;
+    /// What segments do, from mean() and their lengths. Bit i: segment i swallows light, and `found` has it.
+    [[nodiscard]] unsigned lights(const SegmentEnds& ends, SegmentLights& found) const;
     /// Is any mean between values from low to high above 0?
     [[nodiscard]] bool visible(double low, double high) const {
         const auto from = static_cast<std::int64_t>(std::max(0.0, place(low) - kWidening));
@@ -54,11 +54,15 @@ public:
 private:
     static constexpr double kWidening = 0.5;  ///< table positions averaged for values too close to each other
     using Sums = std::array<double, 4>;       ///< extinction, glow
-    void mean_between(double low, double high, Sums& mean) const;
+    /// Integrals to `part` of the way from an entry to the next one.
+    void sums_at(std::int32_t entry, double part, FourDoubles& sums) const;
+    void mean_between(double low, double high, FourDoubles& mean) const;
+    /// Bit i: there is something visible between the i-th entries, or in one of them.
+    [[nodiscard]] unsigned visible_between(const EightIntegers& first, const EightIntegers& second) const;
     void add(const TransferCurve& curve, double length_unit);
     double low_, places_per_value_;
     std::vector<std::uint16_t> next_visible_;  ///< per position: the first one at or after it with visible values before the next one
-    std::vector<Sums> sums_;                   ///< integrals from the lowest value to each of evenly spaced ones
+    std::vector<Sums> sums_;                   ///< integrals from the lowest value to each of evenly spaced ones; the last one twice
 };
 
 }  // namespace isoatlas
