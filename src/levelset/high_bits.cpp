@@ -1,5 +1,7 @@
 #include "levelset/high_bits.h"
 
+#include <algorithm>
+#include <array>
 #include <bit>
 #include <cstring>
 
@@ -28,16 +30,16 @@ std::uint64_t pack(const std::uint8_t* flags) {
 
 template <class T>
 void classify_row(const T* values, std::int64_t n, T min, std::uint64_t* row) {
-    alignas(64) std::uint8_t flags[64];
-    std::uint64_t carry = 0;  // bit p is voxel p - 1: everything moves up by one
+    alignas(64) std::array<std::uint8_t, 64> flags;
+    std::array<T, 64> last{};  // of a row that ends within a word, filled up
+    std::uint64_t carry = 0;   // bit p is voxel p - 1: everything moves up by one
     std::int64_t w = 0;
     for (std::int64_t x = 0; x < n; x += 64, ++w) {
-        if (n - x >= 64) {
-            for (int i = 0; i < 64; ++i) flags[i] = values[x + i] >= min;
-        } else {
-            for (int i = 0; i < 64; ++i) flags[i] = x + i < n && values[x + i] >= min;
-        }
-        const std::uint64_t word = pack(flags);
+        const std::int64_t left = n - x;
+        if (left < 64) std::copy_n(values + x, left, last.begin());
+        const T* from = left < 64 ? last.data() : values + x;
+        for (std::size_t i = 0; i < 64; ++i) flags[i] = from[i] >= min;
+        const std::uint64_t word = pack(flags.data()) & (left < 64 ? ~(~std::uint64_t{0} << left) : ~std::uint64_t{0});
         row[w] = word << 1 | carry;
         carry = word >> 63;
     }
