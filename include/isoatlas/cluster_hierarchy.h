@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "isoatlas/level_of_detail.h"
+#include "isoatlas/viewpoint.h"
 
 namespace isoatlas {
 
@@ -53,23 +54,6 @@ struct ClusterOptions {
 /// allows in memory and the rest in its scratch file (environment.h).
 [[nodiscard]] ClusterHierarchy make_clusters(Surface surface, const Geometry& geometry, const Extent& extent,
                                              const ClusterOptions& options = {}, const Context& context = {});
-
-/// The cone around a picture, its tip in the eye.
-struct ViewCone {
-    Vec3 direction{};       ///< of any length above 0
-    double half_angle = 0;  ///< radians, above 0 and below pi/2
-};
-
-/// From where a surface is seen.
-struct Viewpoint {
-    Vec3 eye{};                         ///< physical
-    double pixel = 0;                   ///< how wide a pixel is at a physical distance of 1 from the eye, physical; above 0
-    double near = 0;                    ///< what is nearer to the eye than this counts as being there, physical; above 0
-    std::optional<ViewCone> cone = {};  ///< what is seen; without one: all around
-};
-
-/// Throws Error{usage} where a number is not what Viewpoint and ViewCone say.
-void require_viewpoint(const Viewpoint& from);
 
 /// Of each group: how many pixels what replaces it is at most from the exact surface, as it is seen where its ball comes nearest to the
 /// eye; a sixteenth of that where its ball is outside the view. At least those of the groups that made its clusters: the groups of at most

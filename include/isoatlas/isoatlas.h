@@ -88,5 +88,6 @@
 #include "isoatlas/vec3.h"
 #include "isoatlas/verify.h"
 #include "isoatlas/version.h"
+#include "isoatlas/viewpoint.h"
 #include "isoatlas/volume.h"
 #include "isoatlas/zone_files.h"

@@ -7,14 +7,9 @@
 #include <vector>
 
 #include "isoatlas/surface.h"
+#include "isoatlas/viewpoint.h"
 
 namespace isoatlas {
-
-/// Where somebody looks from. Blocks are smaller where they are near.
-struct FrontEye {
-    Vec3 position;         ///< in voxels: the first sample of the volume is at 0 0 0
-    double slope = 0.001;  ///< how much a surface may deviate, for each voxel that it is away: the angle of a pixel, in radians
-};
 
 struct FrontOptions {
     /// Blocks are at most 2^max_level cells wide, 0 .. 5; 0: the exact surface.
@@ -24,8 +19,10 @@ struct FrontOptions {
     /// How far the points of the exact surface on edges of the grid may be from the front, in voxels; infinity: blocks are as large as the
     /// topology allows, which is fast: no distance is measured.
     double deviation = std::numeric_limits<double>::infinity();
-    /// Instead of one deviation everywhere.
-    std::optional<FrontEye> eye{};
+    /// Instead of one deviation everywhere: from where the front is seen, and how many pixels these points may be from it there. Blocks are
+    /// smaller where they are near. Physical, also where steps are uneven.
+    std::optional<Viewpoint> from{};
+    double pixels = 1;
     /// Regions of interest: the exact surface inside these samples.
     std::vector<SampleBox> exact{};
 };
@@ -33,7 +30,8 @@ struct FrontOptions {
 struct FrontSurface {
     Surface surface;
     std::vector<std::int64_t> leaves;  ///< how many blocks of each level hold a part of all objects; of level 0: cells
-    double deviation = 0;              ///< as it was measured; infinity: it was not
+    double deviation = std::numeric_limits<double>::infinity();  ///< as it was measured; infinity: it was not
+    double pixels = std::numeric_limits<double>::infinity();     ///< as it is seen, at most; infinity: from nowhere
 };
 
 /// The surface at tau with the same contours, genus and nesting as that of extract(), and fewer triangles: in a block of cells where it is

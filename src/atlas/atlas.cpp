@@ -197,7 +197,7 @@ FrontSurface Atlas::extract_front(double tau, const FrontOptions& options, const
         return extract_front_level(level, options, how, context, active);
     };
     BrickFlags bricks;
-    if (is_one_object(surface) && std::isfinite(tau) && options.exact.empty() && !options.eye) {  // places would be those of the whole
+    if (is_one_object(surface) && std::isfinite(tau) && options.exact.empty()) {  // their places would be those of the whole
         FrontSurface front;
         std::optional<Surface> object = data_->extract_object(
             tau, own, context, cost,

@@ -3,10 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
-#include <optional>
 
-#include "geometry/vectors.h"
+#include "geometry/seen_lengths.h"
 #include "isoatlas/error.h"
 #include "level_of_detail/without_points.h"
 
@@ -46,26 +44,6 @@ std::vector<std::int64_t> clusters_within(const ClusterHierarchy& hierarchy, dou
                               [&](std::int64_t group) { return hierarchy.groups[static_cast<std::size_t>(group)].distance <= distance; });
 }
 
-/// The cone of a viewpoint. Notation: s, c: sine and cosine of its half angle; a point is h along the axis and r beside it.
-class SeenCone {
-public:
-    SeenCone(const Vec3& eye, const ViewCone& cone) : eye_(eye), sine_(std::sin(cone.half_angle)), cosine_(std::cos(cone.half_angle)) {
-        const double length = norm(cone.direction);
-        for (std::size_t axis = 0; axis < 3; ++axis) axis_[axis] = cone.direction[axis] / length;
-    }
-    /// The distance r c - h s from the mantle is at most that from the cone.
-    [[nodiscard]] bool may_meet(const Vec3& centre, double radius) const {
-        const Vec3 away = minus(centre, eye_);
-        const double along = dot(away, axis_);
-        const double beside = std::sqrt(std::max(0.0, dot(away, away) - along * along));
-        return beside * cosine_ - along * sine_ <= radius;
-    }
-
-private:
-    Vec3 eye_, axis_{};
-    double sine_, cosine_;
-};
-
 }  // namespace
 
 std::vector<std::int64_t> clusters_of_choice(const ClusterHierarchy& hierarchy, const std::function<bool(std::int64_t)>& is_chosen) {
@@ -95,30 +73,13 @@ std::int64_t triangles_within(const ClusterHierarchy& hierarchy, double distance
     return triangles_of(hierarchy, clusters_within(hierarchy, distance));
 }
 
-void require_viewpoint(const Viewpoint& from) {
-    const auto require = [](bool holds, const char* what, const char* expected) {
-        if (!holds) throw Error(ErrorKind::usage, {.what = what, .expected = expected});
-    };
-    require(from.pixel > 0 && from.near > 0, "a length of a view is not positive", "more than 0");
-    if (!from.cone) return;
-    const double length = norm(from.cone->direction);
-    require(length > 0 && std::isfinite(length), "a view has no direction", "three finite numbers, not all 0");
-    require(from.cone->half_angle > 0 && from.cone->half_angle < std::numbers::pi / 2, "the angle of a view",
-            "above 0 and less than half a turn");
-}
-
 std::vector<double> pixels_of_groups(const ClusterHierarchy& hierarchy, const Viewpoint& from, double length) {
-    require_viewpoint(from);
+    const SeenLengths seen(from);
     if (!(length > 0)) throw Error(ErrorKind::usage, {.what = "the length of a unit is not positive", .expected = "more than 0"});
-    constexpr double kUnseen = 1.0 / 16;  // coarse, and not so coarse that a turn of the view shows it before finer clusters are there
-    std::optional<SeenCone> seen;
-    if (from.cone) seen.emplace(from.eye, *from.cone);
     std::vector<double> pixels;
     pixels.reserve(hierarchy.groups.size());
     for (const ClusterGroup& group : hierarchy.groups) {
-        const double away = norm(minus(group.centre, from.eye)) - group.radius;
-        double most = group.distance * length / (from.pixel * std::max(away, from.near));
-        if (seen && !seen->may_meet(group.centre, group.radius)) most *= kUnseen;
+        double most = seen.pixels(group.distance * length, group.centre, group.radius);
         for (const std::int64_t part : group.made_of) most = std::max(most, pixels[static_cast<std::size_t>(part)]);  // rounding
         pixels.push_back(most);
     }

@@ -7,6 +7,8 @@
 
 #include "field/require_isovalue.h"
 #include "field/slab_work.h"
+#include "geometry/seen_lengths.h"
+#include "geometry/vectors.h"
 #include "isoatlas/environment.h"
 #include "isoatlas/error.h"
 #include "mesh/count_cells.h"
@@ -20,18 +22,40 @@
 namespace isoatlas {
 namespace {
 
-/// How far the exact surface may be from what a leaf draws.
-double allowed(const FrontOptions& options, const FrontLeaf& leaf) {
-    if (!options.eye) return options.deviation;
-    const Index3 first = leaf.position() - 1;
-    double squared = 0;
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-        const auto low = static_cast<double>(first[axis]), high = low + static_cast<double>(leaf.width());
-        const double away = std::max({low - options.eye->position[axis], options.eye->position[axis] - high, 0.0});
-        squared += away * away;
+/// How far the exact surface may be from what leaves draw. A distance is in voxels; seen from a viewpoint, it is physical.
+class LeafLimit {
+public:
+    LeafLimit(const TauLevel& level, const FrontOptions& options)
+        : space_{level.info().geometry, level.window ? level.window->origin : Index3{}}, options_(options) {
+        if (options.from) seen_.emplace(*options.from);
     }
-    return options.eye->slope * std::sqrt(squared);
-}
+    [[nodiscard]] bool is_limited() const { return seen_ || std::isfinite(options_.deviation); }
+    /// Where distances are measured; null: among voxels.
+    [[nodiscard]] const PhysicalLeaves* space() const { return seen_ ? &space_ : nullptr; }
+    /// A distance as it is limited: in pixels, or in voxels.
+    [[nodiscard]] double measured(const FrontLeaf& leaf, double distance) const {
+        if (!seen_) return distance;
+        const Index3 first = leaf.position() - 1;
+        const auto point = [&](double x, double y, double z) {  // of the leaf, each from 0 to 1
+            const auto width = static_cast<double>(leaf.width());
+            return space_.point({static_cast<double>(first[0]) + x * width, static_cast<double>(first[1]) + y * width,
+                                 static_cast<double>(first[2]) + z * width});
+        };
+        const Vec3 centre = point(0.5, 0.5, 0.5);
+        double radius = 0;
+        for (int corner = 0; corner < 8; ++corner)
+            radius = std::max(radius, norm(minus(point(corner & 1, corner >> 1 & 1, corner >> 2), centre)));
+        return seen_->pixels(distance, centre, radius);
+    }
+    [[nodiscard]] bool allows(const FrontLeaf& leaf, double distance) const {
+        return measured(leaf, distance) <= (seen_ ? options_.pixels : options_.deviation);
+    }
+
+private:
+    PhysicalLeaves space_;
+    const FrontOptions& options_;
+    std::optional<SeenLengths> seen_;
+};
 
 void find_all_fans(const FrontLeaves& leaves, std::vector<RowFans>& fans, const Context& context) {
     fans.resize(static_cast<std::size_t>(leaves.rows()));
@@ -40,19 +64,18 @@ void find_all_fans(const FrontLeaves& leaves, std::vector<RowFans>& fans, const 
 }
 
 /// Finds the fans of the leaves, and divides those that are too far from the exact surface until there is none. Returns the greatest
-/// distance; infinity if no limit is asked for.
-double fit(const TauLevel& level, const FrontOptions& options, FrontLeaves& leaves, std::vector<RowFans>& fans, const Context& context) {
+/// distance as it is limited; infinity if it is not.
+double fit(const TauLevel& level, const LeafLimit& limit, FrontLeaves& leaves, std::vector<RowFans>& fans, const Context& context) {
     const auto rows = static_cast<std::size_t>(leaves.rows());
     std::vector<std::vector<double>> distance(rows);
-    const bool is_limited = options.eye || std::isfinite(options.deviation);
     for (;;) {
         find_all_fans(leaves, fans, context);
-        if (!is_limited) return std::numeric_limits<double>::infinity();
+        if (!limit.is_limited()) return std::numeric_limits<double>::infinity();
         for_each_slab_of(1, context, kFrontPhases["leaves"], leaves.rows(), [&](const Slab& slab) {
             const auto row = static_cast<std::size_t>(slab.z_begin);
             distance[row].clear();
             visit_grid(level.volume, [&]<class T>(const SampleGrid<T>& grid) {
-                const LeafDeviation<T> deviation(grid, level.tau, leaves.blocks());
+                const LeafDeviation<T> deviation(grid, level.tau, leaves.blocks(), limit.space());
                 std::size_t fan = 0, begin = 0;
                 for (const FrontLeaf& leaf : leaves.leaves(slab.z_begin)) {
                     distance[row].push_back(0);
@@ -66,13 +89,14 @@ double fit(const TauLevel& level, const FrontOptions& options, FrontLeaves& leav
         const std::int64_t divided = leaves.divide(
             [&](std::int64_t row, std::size_t i) {
                 const FrontLeaf& leaf = leaves.leaves(row)[i];
-                return leaf.level > 0 && distance[static_cast<std::size_t>(row)][i] > allowed(options, leaf);
+                return leaf.level > 0 && !limit.allows(leaf, distance[static_cast<std::size_t>(row)][i]);
             },
             context);
         if (divided > 0) continue;
         double worst = 0;
-        for (const std::vector<double>& of_row : distance) {
-            for (const double one : of_row) worst = std::max(worst, one);
+        for (std::size_t row = 0; row < rows; ++row) {
+            const std::vector<FrontLeaf>& of_row = leaves.leaves(static_cast<std::int64_t>(row));
+            for (std::size_t i = 0; i < of_row.size(); ++i) worst = std::max(worst, limit.measured(of_row[i], distance[row][i]));
         }
         return worst;
     }
@@ -132,9 +156,9 @@ void require_front(const VolumeInfo& info, const FrontOptions& options, const Su
     require(surface.boundary == Boundary::closed, "a front that is open at the border of the volume", "a closed one");
     require(options.triangles >= 0, "the triangles of a front", "0 or more");
     require(options.deviation > 0, "the deviation of a front", "more than 0 voxels");
-    require(!options.eye || (options.eye->slope > 0 && std::isfinite(options.eye->slope)), "the slope of an eye", "a number above 0");
-    require(!options.eye || std::ranges::all_of(options.eye->position, [](double x) { return std::isfinite(x); }), "the place of an eye",
-            "three numbers");
+    require(options.pixels > 0, "the pixels of a front", "more than 0");
+    require(!options.from || std::isinf(options.deviation), "a front with a deviation that is seen from somewhere", "one of them");
+    if (options.from) require_viewpoint(*options.from);
     for (const SampleBox& box : options.exact) require(is_inside(box, info.extent), "a region of interest", "samples of the volume");
 }
 
@@ -150,9 +174,11 @@ FrontSurface extract_front_level(const TauLevel& level, const FrontOptions& opti
     const std::unique_ptr<FrontLeaves> leaves = choose_leaves(blocks, options, context);
     if (chosen.empty()) require_triangles(number_of(*leaves), how.surface, "at least ");  // a leaf has one or more
     std::vector<RowFans> fans;
-    const double deviation = fit(level, options, *leaves, fans, context);
+    const double measured = fit(level, {level, options}, *leaves, fans, context);
 
-    FrontSurface front{{}, std::vector<std::int64_t>(static_cast<std::size_t>(options.max_level) + 1, 0), deviation};
+    FrontSurface front;
+    front.leaves.assign(static_cast<std::size_t>(options.max_level) + 1, 0);
+    (options.from ? front.pixels : front.deviation) = measured;
     for (std::int64_t row = 0; row < leaves->rows(); ++row) {
         for (const FrontLeaf& leaf : leaves->leaves(row)) ++front.leaves[static_cast<std::size_t>(leaf.level)];
     }

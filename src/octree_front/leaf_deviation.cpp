@@ -24,7 +24,7 @@ Vec3 LeafDeviation<T>::place_of(const EdgeHit& hit) const {
         place[axis] +=
             hit_fraction(static_cast<double>(grid_.corner(first, 0)), static_cast<double>(grid_.corner(first, 1 << hit.axis)), tau_);
     }
-    return place;
+    return space_ == nullptr ? place : space_->point(place);
 }
 
 template <class T>

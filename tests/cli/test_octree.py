@@ -35,13 +35,33 @@ class Octree(CliTest):
         self.assertIn("points of the exact surface within 0.", text)
         self.assertIn("with the same topology", text)
 
+    def test_pixels_seen_from_an_eye(self):
+        exact, free = self.extract(), self.extract("--octree", "16")
+        near, far = (self.extract("--octree", "16", "--eye", eye) for eye in ("24,24,-60", "24,24,-3000"))
+        for front in (near, far):
+            self.assertTrue(0 < front["octree"]["pixels"] <= 1)
+            self.assertIsNone(front["octree"]["deviation"])
+            self.assertEqual((front["objects"], front["contours"]), (exact["objects"], exact["contours"]))
+        self.assertTrue(free["triangles"] <= far["triangles"] < near["triangles"] < exact["triangles"])
+        coarse = self.extract("--octree", "16", "--eye", "24,24,-60", "--octree-pixels", "3")
+        self.assertLess(coarse["triangles"], near["triangles"])
+        self.assertTrue(1 < coarse["octree"]["pixels"] <= 3)
+        text = self.run_ok("extract", "demo.nrrd", "--tau", "90", "--octree", "16", "--eye", "24,24,-60", "-o", "front.ply").stdout
+        self.assertIn("pixels from the eye, with the same topology", text)
+
     def test_a_store_gives_the_same_bytes(self):
         self.run_ok("build", "demo.nrrd", "-o", "demo.atlas")
-        for options in ([], ["--octree-error", "0.3"]):
+        for options in ([], ["--octree-error", "0.3"], ["--eye", "24,24,-60"]):
             self.extract("--octree", "8", *options, output="volume.ply")
             document = self.extract("--octree", "8", *options, file="demo.atlas", output="store.ply")
             self.assertGreater(document["reads"]["bytes"], 0)
             self.assertEqual((self.folder / "volume.ply").read_bytes(), (self.folder / "store.ply").read_bytes())
+
+    def test_an_object_of_a_store_is_seen_as_in_the_volume(self):
+        self.run_ok("build", "demo.nrrd", "-o", "demo.atlas")
+        for file in ("demo.nrrd", "demo.atlas"):
+            self.run_ok("extract", file, "--top", "1", "--octree", "8", "--eye", "10,50,-20", "-o", file + ".ply")
+        self.assertEqual((self.folder / "demo.nrrd.ply").read_bytes(), (self.folder / "demo.atlas.ply").read_bytes())
 
     def test_objects_by_blocks(self):
         document = self.run_json("extract", "demo.nrrd", "--top", "2", "--octree", "8", "-o", "objects.glb")
@@ -63,6 +83,9 @@ class Octree(CliTest):
         for options, said in ((["--octree", "7"], "2, 4, 8, 16 or 32"), (["--octree", "64"], "--octree"),
                               (["--octree-error", "1"], "add --octree"), (["--octree", "8", "--simplify", "1"], "contradict"),
                               (["--octree", "8", "--boundary", "open"], "contradict"), (["--octree", "8", "--coarser", "2"], "contradict"),
+                              (["--eye", "1,2,3"], "add --octree"), (["--octree", "8", "--octree-pixels", "2"], "add --eye"),
+                              (["--octree", "8", "--eye", "1,x,3"], "--eye"),
+                              (["--octree", "8", "--eye", "1,2,3", "--octree-error", "1"], "contradict"),
                               (["--octree", "8", "-o", "front.precomputed"], "does not apply to .precomputed")):
             output = [] if "-o" in options else ["-o", "front.glb"]
             self.run_error(2, "extract", "demo.nrrd", "--tau", "90", *options, *output, says=said)

@@ -30,6 +30,7 @@ FOLDERS = {room.split("/")[0] for room in LIBRARY_OF}
 # room -> public headers (isoatlas/NAME.h) that belong to it: rooms before it do not include them, as they do not include its own
 PUBLIC = {
     "base": "array bounds context environment error id index3 output_file sink text vec3 version",
+    "geometry": "viewpoint",
     "field": "filter interpolant isovalue polarity sample_bytes samples_wanted shell units volume",
     "tree": "criticality",
     "analysis": "active analysis",

@@ -8,7 +8,9 @@
 #include <limits>
 #include <set>
 
+#include "geometry/seen_lengths.h"
 #include "geometry/triangles.h"
+#include "geometry/vectors.h"
 #include "isoatlas/error.h"
 #include "isoatlas/octree_front.h"
 #include "levelset/high_bits.h"
@@ -90,6 +92,34 @@ void hits_stay_within_the_deviation() {
         for (const auto& t : front.surface.triangles)
             nearest = std::min(nearest, isoatlas::squared_distance(p, point(t[0]), point(t[1]), point(t[2])));
         RC_ASSERT(std::sqrt(nearest) <= front.deviation + 1e-6);
+    }
+}
+
+/// On any axes, whatever they mean.
+void hits_are_seen_within_the_pixels() {
+    const CoarseCase c;
+    RC_PRE(c.exact.closed && !c.exact.triangles.empty());
+    FrontOptions options = arbitrary_front(c.volume.info.extent);
+    const auto place = [&] { return *rc::gen::inRange(-30, 60) * 0.5; };
+    options.from = isoatlas::Viewpoint{.eye = {place(), place(), place()}, .pixel = *rc::gen::element(0.002, 0.02, 0.2), .near = 0.5};
+    options.pixels = *rc::gen::element(0.5, 1.0, 3.0);
+    if (*rc::gen::arbitrary<bool>()) options.from->cone = isoatlas::ViewCone{{1, place(), place()}, 0.3};
+    const FrontSurface front = extract_front(c.volume, c.exact.tau, options, {.interpolant = c.exact.interpolant});
+    RC_ASSERT(front.pixels <= options.pixels);
+    RC_ASSERT(component_numbers(front.surface) == component_numbers(c.exact));
+    isoatlas::Volume in_voxels = c.volume;
+    in_voxels.info.geometry = {};
+    const Surface exact = extract(in_voxels, c.exact.tau, {.interpolant = c.exact.interpolant});
+    const isoatlas::SeenLengths all_around({.eye = options.from->eye, .pixel = options.from->pixel, .near = options.from->near});
+    const auto point = [&](std::int64_t i) { return front.surface.points[static_cast<std::size_t>(i)]; };
+    for (const Vec3& voxel : exact.points) {
+        if (!is_hit(voxel)) continue;
+        const Vec3 p = to_physical(c.volume.info.geometry, voxel);
+        double nearest = kInfinity;
+        for (const auto& t : front.surface.triangles)
+            nearest = std::min(nearest, isoatlas::squared_distance(p, point(t[0]), point(t[1]), point(t[2])));
+        const double pixels = all_around.pixels(std::sqrt(nearest), p, 0), unseen = options.from->cone ? 16 : 1;
+        RC_ASSERT(pixels <= unseen * front.pixels + 1e-6);
     }
 }
 
@@ -243,8 +273,12 @@ TEST(OctreeFronts, AreAsFineAsSoManyTrianglesAllow) {
 TEST(OctreeFronts, AreFineNearTheEye) {
     isoatlas::Volume volume = volume_of(kShapes[5]);
     volume.info.geometry = {};
-    const FrontSurface front = extract_front(volume, kShapes[5].tau, {.eye = isoatlas::FrontEye{{0, 0, 0}, 0.01}});
-    const FrontSurface far = extract_front(volume, kShapes[5].tau, {.eye = isoatlas::FrontEye{{-4000, 0, 0}, 0.01}});
+    const auto seen_from = [&](const Vec3& eye) {
+        return extract_front(volume, kShapes[5].tau, {.from = isoatlas::Viewpoint{.eye = eye, .pixel = 0.01, .near = 1}});
+    };
+    const FrontSurface front = seen_from({0, 0, 0}), far = seen_from({-4000, 0, 0});
+    EXPECT_LE(front.pixels, 1);
+    EXPECT_LE(far.pixels, 1);
     EXPECT_LT(far.surface.triangles.size(), front.surface.triangles.size());
     for (const Vec3& p : extract(volume, kShapes[5].tau).points) {
         double nearest = kInfinity;
@@ -252,7 +286,7 @@ TEST(OctreeFronts, AreFineNearTheEye) {
             const auto corner = [&](std::size_t i) { return front.surface.points[static_cast<std::size_t>(t[i])]; };
             nearest = std::min(nearest, isoatlas::squared_distance(p, corner(0), corner(1), corner(2)));
         }
-        EXPECT_LE(std::sqrt(nearest), 0.01 * std::sqrt(p[0] * p[0] + p[1] * p[1] + p[2] * p[2]) + 1e-6);
+        EXPECT_LE(std::sqrt(nearest), 0.01 * std::max(1.0, isoatlas::norm(p)) + 1e-6);
     }
 }
 
@@ -282,9 +316,13 @@ TEST(OctreeFronts, RefuseOptionsOutOfRange) {
     EXPECT_EQ(refused(volume, {.max_level = -1}), isoatlas::ErrorKind::usage);
     EXPECT_EQ(refused(volume, {.deviation = 0}), isoatlas::ErrorKind::usage);
     const double nan = std::numeric_limits<double>::quiet_NaN();
-    for (const double slope : {nan, -0.001, 0.0, std::numeric_limits<double>::infinity()})
-        EXPECT_EQ(refused(volume, {.eye = isoatlas::FrontEye{{0, 0, 9}, slope}}), isoatlas::ErrorKind::usage);
-    EXPECT_EQ(refused(volume, {.eye = isoatlas::FrontEye{{0, nan, 9}}}), isoatlas::ErrorKind::usage);
+    for (const double length : {nan, -0.001, 0.0}) {
+        EXPECT_EQ(refused(volume, {.from = isoatlas::Viewpoint{.pixel = length, .near = 1}}), isoatlas::ErrorKind::usage);
+        EXPECT_EQ(refused(volume, {.from = isoatlas::Viewpoint{.pixel = 0.001, .near = length}}), isoatlas::ErrorKind::usage);
+        EXPECT_EQ(refused(volume, {.pixels = length}), isoatlas::ErrorKind::usage);
+    }
+    EXPECT_EQ(refused(volume, {.from = isoatlas::Viewpoint{.eye = {0, nan, 9}, .pixel = 1, .near = 1}}), isoatlas::ErrorKind::usage);
+    EXPECT_EQ(refused(volume, {.deviation = 1, .from = isoatlas::Viewpoint{.pixel = 1, .near = 1}}), isoatlas::ErrorKind::usage);
     EXPECT_EQ(refused(volume, {.exact = {{{0, 0, 0}, {99, 1, 1}}}}), isoatlas::ErrorKind::usage);
     const std::vector<float> flat(16, 1);
     EXPECT_EQ(refused(isoatlas::make_volume<float>({2, {4, 4, 1}}, flat), {}), isoatlas::ErrorKind::unsupported);
@@ -292,6 +330,7 @@ TEST(OctreeFronts, RefuseOptionsOutOfRange) {
 
 RC_GTEST_PROP(OctreeFronts, HaveTheContoursOfTheExactSurface, ()) { fronts_have_the_contours_of_the_exact_surface(); }
 RC_GTEST_PROP(OctreeFronts, StayWithinTheirDeviation, ()) { hits_stay_within_the_deviation(); }
+RC_GTEST_PROP(OctreeFronts, AreSeenWithinTheirPixels, ()) { hits_are_seen_within_the_pixels(); }
 RC_GTEST_PROP(OctreeFronts, AreExactInRegionsOfInterest, ()) { regions_of_interest_are_exact(); }
 RC_GTEST_PROP(OctreeFronts, HavePointsOfTheExactSurface, ()) { points_of_fronts_are_exact_points(); }
 RC_GTEST_PROP(OctreeFronts, HaveTheSameBytesForAnyThreads, ()) { fronts_have_the_same_bytes_for_any_threads(); }

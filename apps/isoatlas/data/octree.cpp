@@ -3,8 +3,11 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <numbers>
 
 #include <fmt/format.h>
+
+#include "options/words.h"
 
 namespace isoatlas::cli {
 
@@ -15,8 +18,13 @@ void check_octree(const Arguments& arguments) {
     if (!arguments.octree.is_asked_for()) {
         if (arguments.octree.error)
             throw Error(ErrorKind::usage, {.what = "--octree-error is a limit of --octree", .next = "add --octree CELLS"});
+        if (!arguments.octree.eye.empty())
+            throw Error(ErrorKind::usage, {.what = "--eye makes blocks of --octree smaller", .next = "add --octree CELLS"});
         return;
     }
+    if (arguments.octree.pixels && arguments.octree.eye.empty())
+        throw Error(ErrorKind::usage, {.what = "--octree-pixels are seen from an eye", .next = "add --eye X,Y,Z"});
+    if (arguments.octree.error && !arguments.octree.eye.empty()) contradicts("--octree-error", "--eye");
     if (!std::has_single_bit(static_cast<unsigned>(arguments.octree.cells)))
         throw Error(ErrorKind::usage,
                     {.what = "--octree " + std::to_string(arguments.octree.cells), .expected = "2, 4, 8, 16 or 32 cells"});
@@ -26,20 +34,27 @@ void check_octree(const Arguments& arguments) {
     if (arguments.inputs.are_labels && !arguments.tau && !arguments.best) contradicts("--octree", "labels");
 }
 
-FrontOptions OctreeUse::options() const {
+FrontOptions OctreeUse::options(const Geometry& geometry) const {
     FrontOptions options;
     options.max_level = std::countr_zero(static_cast<unsigned>(asked.cells));
     if (asked.error) options.deviation = *asked.error;
+    if (!asked.eye.empty()) {
+        constexpr double kLines = 1080, kHalfAngle = 15 * std::numbers::pi / 180;  // of the viewer
+        options.from = {.eye = parse_vector("--eye", asked.eye, 0),
+                        .pixel = 2 * std::tan(kHalfAngle) / kLines,
+                        .near = std::ranges::min(geometry.spacing)};
+        options.pixels = asked.pixels.value_or(1);
+    }
     return options;
 }
 
 Surface OctreeUse::take(FrontSurface front) {
-    *this += {asked, front.deviation, std::move(front.leaves)};
+    *this += {asked, front.deviation, front.pixels, std::move(front.leaves)};
     return std::move(front.surface);
 }
 
 OctreeUse& OctreeUse::operator+=(const OctreeUse& other) {
-    deviation = std::max(deviation, other.deviation);
+    deviation = std::max(deviation, other.deviation), pixels = std::max(pixels, other.pixels);
     leaves.resize(std::max(leaves.size(), other.leaves.size()));
     for (std::size_t level = 0; level < other.leaves.size(); ++level) leaves[level] += other.leaves[level];
     return *this;
@@ -53,12 +68,14 @@ std::string octree_text(const OctreeUse& use) {
     }
     const std::string within =
         std::isfinite(use.deviation) ? fmt::format("points of the exact surface within {:.3g} voxels, ", use.deviation) : "";
-    return text + "; " + within + "with the same topology";
+    const std::string seen = std::isfinite(use.pixels) ? fmt::format("{:.2g} pixels from the eye, ", use.pixels) : "";
+    return text + "; " + within + seen + "with the same topology";
 }
 
 Json octree_json(const OctreeUse& use) {
     Json json{{"cells", use.asked.cells}};
     json["deviation"] = std::isfinite(use.deviation) ? Json(use.deviation) : Json(nullptr);
+    json["pixels"] = std::isfinite(use.pixels) ? Json(use.pixels) : Json(nullptr);
     Json& leaves = json["leaves"] = Json::array();
     for (std::size_t level = 0; level < use.leaves.size(); ++level) leaves.push_back({{"cells", 1 << level}, {"count", use.leaves[level]}});
     return json;

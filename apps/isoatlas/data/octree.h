@@ -1,4 +1,4 @@
-// extract --octree, --octree-error: surfaces by blocks of cells
+// extract --octree, --octree-error, --octree-pixels, --eye: surfaces by blocks of cells
 #pragma once
 
 #include <string>
@@ -14,9 +14,10 @@ namespace isoatlas::cli {
 struct OctreeUse {
     OctreeArguments asked{};
     double deviation = 0;                ///< in voxels; infinity: it was not measured
+    double pixels = 0;                   ///< from the eye; infinity: there is none
     std::vector<std::int64_t> leaves{};  ///< of blocks 1, 2, 4, ... cells wide
 
-    [[nodiscard]] FrontOptions options() const;
+    [[nodiscard]] FrontOptions options(const Geometry& geometry) const;
     /// Adds what was done.
     [[nodiscard]] Surface take(FrontSurface front);
     OctreeUse& operator+=(const OctreeUse& other);

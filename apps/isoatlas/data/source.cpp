@@ -94,7 +94,7 @@ Surface Source::extract(double tau, const SurfaceOptions& options) {
             return atlas_ && !arguments_.voxel_units ? atlas_->extract_front(tau, blocks, options, context(), &cost_)
                                                      : extract_front(volume(), tau, blocks, how, context());
         };
-        return octree_.take(front(octree_.options()));
+        return octree_.take(front(octree_.options(info().geometry)));
     }
     if (atlas_ && !arguments_.voxel_units) return atlas_->extract(tau, options, context(), &cost_);
     return isoatlas::extract(volume(), tau, {.interpolant = interpolant(), .tunnel_height = tunnel_height(), .surface = options},

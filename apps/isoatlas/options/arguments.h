@@ -36,10 +36,11 @@ struct SimplificationArguments {
     [[nodiscard]] bool is_asked_for() const { return voxels || length || triangles; }
 };
 
-/// extract: --octree, --octree-error
+/// extract: --octree, --octree-error, --octree-pixels, --eye
 struct OctreeArguments {
     int cells = 0;  ///< 0: not asked for
-    std::optional<double> error;
+    std::optional<double> error, pixels;
+    std::string eye;  ///< "X,Y,Z"
     [[nodiscard]] bool is_asked_for() const { return cells > 0; }
 };
 

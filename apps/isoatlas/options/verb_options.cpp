@@ -113,6 +113,12 @@ void extract_options(CLI::App& app, Arguments& arguments, Typed& typed) {
                "With --octree: smaller blocks where points of the exact surface are farther away")
         ->check(in_range(1e-6, 1e6))
         ->type_name("VOXELS");
+    app.add_option("--eye", arguments.octree.eye, "With --octree: smaller blocks near this point, physical, from where it is looked at")
+        ->type_name("X,Y,Z");
+    add_number(app, "--octree-pixels", arguments.octree.pixels,
+               "With --eye: how far the exact surface may be, seen from there: pixels of a picture of 1080 lines and 30 degrees (1)")
+        ->check(in_range(1e-6, 1e6))
+        ->type_name("N");
     add_number(app, "--coarser", arguments.coarser, "With .glb: so many coarser versions, for viewers to draw where it is small")
         ->check(in_range(1, 16))
         ->type_name("N");
