@@ -100,38 +100,6 @@ template <class N>
     std::copy(numbers.begin(), numbers.end(), group);
 }
 
-#if ISOATLAS_HAS_AVX512
-/// Byte j of the numbers of a group is byte order[j] of the bytes of the group.
-template <class N>
-constexpr std::array<std::uint8_t, 64> kByteOrder = [] {
-    std::array<std::uint8_t, 64> order{};
-    for (std::size_t i = 0; i < kGroup; ++i) {
-        for (std::size_t k = 0; k < sizeof(N); ++k) order[i * sizeof(N) + k] = static_cast<std::uint8_t>(8 * k + i);
-    }
-    return order;
-}();
-
-/// The same in one permutation.
-template <class N>
-[[gnu::always_inline]] ISOATLAS_AVX512 inline void read_group_wide(const std::byte* from, int width, N* group) {
-    const int whole = width / 8;
-    const auto low_bytes = [](int words) { return words >= 8 ? ~__mmask64{0} : (__mmask64{1} << 8 * words) - 1; };
-    __m512i words = _mm512_maskz_loadu_epi8(low_bytes(whole), from);
-    const std::uint64_t bits = last_bytes(from, width);
-    words = _mm512_mask_set1_epi64(words, static_cast<__mmask8>(1U << whole), static_cast<long long>(bits));
-    const __m512i numbers = _mm512_maskz_permutexvar_epi8(~__mmask64{0}, _mm512_loadu_si512(kByteOrder<N>.data()), words);
-    _mm512_mask_storeu_epi8(group, low_bytes(sizeof(N)), numbers);
-}
-
-template <class N>
-ISOATLAS_AVX512 void read_groups_wide(const std::byte* from, std::span<const std::uint8_t> widths, N* numbers) {
-    for (const int width : widths) {
-        read_group_wide(from, width, numbers);
-        from += width, numbers += kGroup;
-    }
-}
-#endif
-
 #if ISOATLAS_HAS_AVX512  // of that family of processors
 [[gnu::always_inline]] ISOATLAS_FUSED inline __m256i swapped_avx2(__m256i bits, long long mask, int places) {
     const __m256i change = _mm256_and_si256(_mm256_xor_si256(bits, _mm256_srli_epi64(bits, places)), _mm256_set1_epi64x(mask));
@@ -149,21 +117,23 @@ ISOATLAS_AVX512 void read_groups_wide(const std::byte* from, std::span<const std
     return _mm256_loadu_si256(static_cast<const __m256i*>(from));
 }
 
-/// last_bytes() of all groups, four at a time: widths and last end at a multiple of four.
-ISOATLAS_FUSED void last_bytes_avx2(const std::byte* from, std::span<const std::uint8_t> widths, std::uint64_t* last) {
+/// last_bytes() of all groups, 8 bytes each, four at a time: widths and last end at a multiple of four.
+ISOATLAS_FUSED void last_bytes_avx2(const std::byte* from, std::span<const std::uint8_t> widths, std::uint8_t* last) {
     const __m256i one = _mm256_set1_epi64x(1);
-    for (std::size_t i = 0; i < widths.size(); i += 4, last += 4) {
-        std::array<std::uint64_t, 4> words;
-        for (std::size_t k = 0; k < 4; ++k) {
-            words[k] = word_at(from + widths[i + k] / 8 * 8);
+    for (std::size_t i = 0; i < widths.size(); i += 4, last += 4 * kGroup) {
+        const auto next = [&](std::size_t k) {
+            const std::uint64_t word = word_at(from + widths[i + k] / 8 * 8);
             from += widths[i + k];
-        }
+            return static_cast<long long>(word);
+        };
+        const long long first = next(0), second = next(1), third = next(2), fourth = next(3);
+        const __m256i words =
+            _mm256_setr_epi64x(first, second, third, fourth);  // not through memory: narrower stores would have to end first
         std::uint32_t four;
         std::memcpy(&four, widths.data() + i, 4);
         const __m256i bits = _mm256_and_si256(_mm256_cvtepu8_epi64(_mm_cvtsi32_si128(static_cast<int>(four))), _mm256_set1_epi64x(7));
         const __m256i kept = _mm256_sub_epi64(_mm256_sllv_epi64(one, _mm256_slli_epi64(bits, 3)), one);
-        const __m256i all = _mm256_and_si256(load_avx2(words.data()), kept);
-        _mm256_storeu_si256(reinterpret_cast<__m256i*>(last), transposed_avx2(all));
+        _mm256_storeu_si256(reinterpret_cast<__m256i*>(last), transposed_avx2(_mm256_and_si256(words, kept)));
     }
 }
 
@@ -201,12 +171,6 @@ template <class N>
 }
 
 [[gnu::always_inline]] ISOATLAS_FUSED inline void read_group_avx2(const std::byte* from, int width, std::uint64_t last,
-                                                                  std::uint8_t* group) {
-    const std::uint64_t word = width == 8 ? word_at(from) : last;
-    std::memcpy(group, &word, 8);
-}
-
-[[gnu::always_inline]] ISOATLAS_FUSED inline void read_group_avx2(const std::byte* from, int width, std::uint64_t last,
                                                                   std::uint16_t* group) {
     const __m128i bytes = _mm_setr_epi8(0, 8, 1, 9, 2, 10, 3, 11, 4, 12, 5, 13, 6, 14, 7, 15);
     const __m128i words = _mm256_castsi256_si128(four_words<std::uint16_t>(from, static_cast<std::size_t>(width / 8), last, 0));
@@ -231,11 +195,22 @@ template <class N>
 
 template <class N>
 ISOATLAS_FUSED void read_groups_avx2(const std::byte* from, std::span<const std::uint8_t> widths, N* numbers) {
-    std::array<std::uint64_t, kTogether> last;
-    last_bytes_avx2(from, {widths.data(), (widths.size() + 3) / 4 * 4}, last.data());
-    for (std::size_t i = 0; i < widths.size(); ++i, numbers += kGroup) {
-        read_group_avx2(from, widths[i], last[i], numbers);
-        from += widths[i];
+    alignas(32) std::array<std::uint8_t, kGroup * kTogether> last;
+    const std::span<const std::uint8_t> fours(widths.data(), (widths.size() + 3) / 4 * 4);
+    if constexpr (sizeof(N) == 1) {  // of one byte it is all, but for groups of 8 bits
+        last_bytes_avx2(from, fours, fours.size() == widths.size() ? numbers : last.data());
+        if (fours.size() != widths.size()) std::memcpy(numbers, last.data(), kGroup * widths.size());
+        if (std::memchr(widths.data(), 8, widths.size()) == nullptr) return;
+        for (std::size_t i = 0; i < widths.size(); from += widths[i++]) {
+            if (widths[i] == 8) std::memcpy(numbers + kGroup * i, from, kGroup);
+        }
+    } else {
+        last_bytes_avx2(from, fours, last.data());
+        for (std::size_t i = 0; i < widths.size(); from += widths[i++]) {
+            std::uint64_t bits;
+            std::memcpy(&bits, last.data() + kGroup * i, sizeof bits);
+            read_group_avx2(from, widths[i], bits, numbers + kGroup * i);
+        }
     }
 }
 #endif
@@ -245,7 +220,6 @@ ISOATLAS_FUSED void read_groups_avx2(const std::byte* from, std::span<const std:
 template <class N>
 void read_groups(const std::byte* from, std::span<const std::uint8_t> widths, N* numbers) {
 #if ISOATLAS_HAS_AVX512
-    if (kHasAvx512) return read_groups_wide(from, widths, numbers);
     if (kHasFused) return read_groups_avx2(from, widths, numbers);
 #endif
     for (const int width : widths) {
@@ -254,17 +228,21 @@ void read_groups(const std::byte* from, std::span<const std::uint8_t> widths, N*
     }
 }
 
-/// Reads groups of variable widths, whose sum is `size`; false when the input is too short.
+/// Reads groups of variable widths, whose sum is `size`, zeros behind the widths as read_groups() needs them; false when the input is too
+/// short. The last groups, from where on fewer bytes than kLookedAt are left, are read from a copy with zeros behind it.
 template <class N>
 bool take_groups(std::span<const std::byte>& packed, std::span<const std::uint8_t> widths, std::size_t size, N* numbers) {
     if (packed.size() < size) return false;
-    if (packed.size() >= size + kLookedAt<N>) {
-        read_groups(packed.data(), widths, numbers);
-    } else {
+    std::size_t copied = widths.size(), end = size;  // groups from `copied` on begin at `end`
+    while (copied > 0 && packed.size() - end < kLookedAt<N>) end -= widths[--copied];
+    if (copied < widths.size() && packed.size() - end >= kLookedAt<N>) end += widths[copied++];
+    for (; copied % 4 != 0; --copied) end -= widths[copied - 1];
+    read_groups(packed.data(), widths.first(copied), numbers);
+    if (copied < widths.size()) {
         std::array<std::byte, kTogether * 8 * sizeof(N) + kLookedAt<N>> padded;
-        std::copy_n(packed.begin(), size, padded.begin());
-        std::fill_n(padded.begin() + static_cast<std::ptrdiff_t>(size), kLookedAt<N>, std::byte{0});
-        read_groups(padded.data(), widths, numbers);
+        std::copy_n(packed.begin() + static_cast<std::ptrdiff_t>(end), size - end, padded.begin());
+        std::fill_n(padded.begin() + static_cast<std::ptrdiff_t>(size - end), kLookedAt<N>, std::byte{0});
+        read_groups(padded.data(), widths.subspan(copied), numbers + copied * kGroup);
     }
     packed = packed.subspan(size);
     return true;
