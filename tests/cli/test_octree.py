@@ -83,7 +83,7 @@ class Octree(CliTest):
         for options, said in ((["--octree", "7"], "2, 4, 8, 16 or 32"), (["--octree", "64"], "--octree"),
                               (["--octree-error", "1"], "add --octree"), (["--octree", "8", "--simplify", "1"], "contradict"),
                               (["--octree", "8", "--boundary", "open"], "contradict"), (["--octree", "8", "--coarser", "2"], "contradict"),
-                              (["--eye", "1,2,3"], "add --octree"), (["--octree", "8", "--octree-pixels", "2"], "add --eye"),
+                              (["--eye", "1,2,3"], "add --octree"), (["--octree", "8", "--octree-pixels", "2"], "add --eye"), (["--octree-pixels", "2"], "add --eye"),
                               (["--octree", "8", "--eye", "1,x,3"], "--eye"),
                               (["--octree", "8", "--eye", "1,2,3", "--octree-error", "1"], "contradict"),
                               (["--octree", "8", "-o", "front.precomputed"], "does not apply to .precomputed")):

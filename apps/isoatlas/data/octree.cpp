@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <numbers>
 
 #include <fmt/format.h>
 
+#include "data/picture.h"
 #include "options/words.h"
 
 namespace isoatlas::cli {
@@ -15,6 +15,8 @@ void check_octree(const Arguments& arguments) {
     const auto contradicts = [](const std::string& option, const std::string& other) {
         throw Error(ErrorKind::usage, {.what = option + " and " + other + " contradict each other", .next = "omit one of them"});
     };
+    if (arguments.octree.pixels && arguments.octree.eye.empty())
+        throw Error(ErrorKind::usage, {.what = "--octree-pixels are seen from an eye", .next = "add --eye X,Y,Z"});
     if (!arguments.octree.is_asked_for()) {
         if (arguments.octree.error)
             throw Error(ErrorKind::usage, {.what = "--octree-error is a limit of --octree", .next = "add --octree CELLS"});
@@ -22,8 +24,6 @@ void check_octree(const Arguments& arguments) {
             throw Error(ErrorKind::usage, {.what = "--eye makes blocks of --octree smaller", .next = "add --octree CELLS"});
         return;
     }
-    if (arguments.octree.pixels && arguments.octree.eye.empty())
-        throw Error(ErrorKind::usage, {.what = "--octree-pixels are seen from an eye", .next = "add --eye X,Y,Z"});
     if (arguments.octree.error && !arguments.octree.eye.empty()) contradicts("--octree-error", "--eye");
     if (!std::has_single_bit(static_cast<unsigned>(arguments.octree.cells)))
         throw Error(ErrorKind::usage,
@@ -39,7 +39,7 @@ FrontOptions OctreeUse::options(const Geometry& geometry) const {
     options.max_level = std::countr_zero(static_cast<unsigned>(asked.cells));
     if (asked.error) options.deviation = *asked.error;
     if (!asked.eye.empty()) {
-        constexpr double kLines = 1080, kHalfAngle = 15 * std::numbers::pi / 180;  // of the viewer
+        constexpr double kLines = 1080;
         options.from = {.eye = parse_vector("--eye", asked.eye, 0),
                         .pixel = 2 * std::tan(kHalfAngle) / kLines,
                         .near = std::ranges::min(geometry.spacing)};

@@ -1,6 +1,7 @@
 // What a picture shows, and how: the options of `render` and `animate`.
 #pragma once
 
+#include <numbers>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -31,6 +32,8 @@ struct ShownObject {
     ObjectReference reference;
     ShownPart part = ShownPart::object;
 };
+
+inline constexpr double kHalfAngle = 15 * std::numbers::pi / 180;  ///< half the default field of view, as in the viewer
 
 /// --eye, --target, --height
 struct ShownCamera {

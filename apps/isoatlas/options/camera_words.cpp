@@ -1,14 +1,11 @@
 // Parses camera options and clipping planes.
 #include <cmath>
-#include <numbers>
 
 #include "data/picture.h"
 #include "options/words.h"
 
 namespace isoatlas::cli {
 namespace {
-
-constexpr double kHalfAngle = 15 * std::numbers::pi / 180;  // half the default field of view, as in the viewer
 
 [[noreturn]] void bad_cut(const std::string& word) {
     throw Error(ErrorKind::usage, {.what = "--cut cannot be \"" + word + "\"",
