@@ -39,9 +39,9 @@ FrontOptions OctreeUse::options(const Geometry& geometry) const {
     options.max_level = std::countr_zero(static_cast<unsigned>(asked.cells));
     if (asked.error) options.deviation = *asked.error;
     if (!asked.eye.empty()) {
-        constexpr double kLines = 1080;
+        constexpr double kPictureLines = 1080;
         options.from = {.eye = parse_vector("--eye", asked.eye, 0),
-                        .pixel = 2 * std::tan(kHalfAngle) / kLines,
+                        .pixel = 2 * std::tan(kHalfAngle) / kPictureLines,
                         .near = std::ranges::min(geometry.spacing)};
         options.pixels = asked.pixels.value_or(1);
     }
