@@ -2,7 +2,7 @@
 """Renders the tables of docs/performance.md from what the benchmarks wrote.
 
     report.py --self-test
-    report.py FOLDER [PAGE]   FOLDER holds what was measured: engine.json, extract.json, store.json, fronts.json, render.json, pages.json, remote.json,
+    report.py FOLDER [PAGE]   FOLDER holds what was measured: engine.json, extract.json, decoding.json, store.json, fronts.json, render.json, pages.json, remote.json,
                               methods.json, methods-surfaces.json and scale-SECTION.json, those that are there; PAGE: docs/performance.md
 
 A table replaces the one of the same processor, as many of them and vectors (AVX2, AVX-512); those of others stay. What misses its goal is in bold.
@@ -117,6 +117,10 @@ def store_misses(record, column):
     of_first_query = {0.2: 6, 2: 2.5, 4.4: 2}.get(round(record["active, %"], 1), 1) if is_smooth else 1
     goals = {"times faster": of_first_query, "again, times faster": 5 if is_smooth else 2, "steps, times faster than fresh": 2}
     return column in goals and record[column] < goals[column]
+
+
+def decoding_misses(record, column):
+    return column == "decoded, GB/s" and record[column] < 2
 
 
 def front_misses(record, column):
@@ -255,6 +259,7 @@ TABLES = [
     ("extract", "extract", lambda document: generic_table(document["results"], extract_misses)),
     ("store-builds", "builds", lambda document: generic_table(document["builds"], build_misses)),
     ("store-phases", "builds", phases_table),
+    ("store-decoding", "decoding", lambda document: generic_table(document["decoding"], decoding_misses)),
     ("store-surfaces", "store", lambda document: generic_table(document["surfaces"], store_misses)),
     ("store-objects", "store", lambda document: generic_table(document["objects"])),
     ("fronts", "fronts", lambda document: generic_table(document["surfaces"], front_misses)),

@@ -2,7 +2,8 @@
 # Measures what docs/performance.md reports and renders its tables. Takes three quarters of an hour on two processors; leave the machine
 # alone meanwhile.
 #
-#   scripts/bench.sh [--quick] [SECTION...]     sections: engine extract builds store fronts formats render pages remote python methods simplify scale; all of them by default
+#   scripts/bench.sh [--quick] [SECTION...]     sections, all of them by default:
+#       engine extract builds decoding store fronts formats render pages remote python methods simplify scale
 #
 # --quick: 64^3 voxels, a run or two each, into build/bench/quick and a copy of the page there: do the scripts work? On a processor with
 # AVX-512 everything is measured twice, with its own vectors and with ISOATLAS_SIMD=avx2; once, where ISOATLAS_SIMD is set, be it empty.
@@ -16,7 +17,7 @@ if [[ ${1:-} == --quick ]]; then
     shift
 fi
 sections=("$@")
-if [[ $# -eq 0 ]]; then sections=(engine extract builds store fronts formats render pages remote python methods simplify scale); fi
+if [[ $# -eq 0 ]]; then sections=(engine extract builds decoding store fronts formats render pages remote python methods simplify scale); fi
 programs=${ISOATLAS_BENCH_PROGRAMS:-}
 if [[ -z $programs ]]; then
     scripts/bootstrap.sh bench
@@ -57,6 +58,7 @@ measure() { # into the folder $1
             engine) "$programs/bench_engine" "${engine[@]}" "${common[@]}" "${pairs[@]}" --json "$to/engine.json" ;;
             extract) compare extract/compare_vtk.py bench_extract ;;
             builds) compare store/builds.py bench_store ;;
+            decoding) compare store/decoding.py bench_store ;;
             store) compare store/compare_vtk.py bench_store ;;
             fronts) compare store/fronts.py bench_store ;;
             formats) python bench/formats/compare_libraries.py "$programs/bench_formats" "${formats[@]}" --cache "$out/volumes" --json "$to/formats.json" ;;
@@ -71,7 +73,7 @@ measure() { # into the folder $1
                 ;;
             simplify) python bench/level_of_detail/compare.py "$programs" "${simplify[@]}" "${common[@]}" --json "$to/simplify.json" ;;
             scale) python bench/scale.py "$programs" "${scale[@]}" --cache "$out/volumes" --out "$to" ;;
-            *) echo "bench: no section '$section'; sections: engine extract builds store fronts formats render pages remote python methods simplify scale" >&2 && exit 2 ;;
+            *) echo "bench: no section '$section'; sections: engine extract builds decoding store fronts formats render pages remote python methods simplify scale" >&2 && exit 2 ;;
         esac
         if [[ $section == scale ]]; then python bench/machine.py "$to"/scale-*.json; else python bench/machine.py "$to/$section.json"; fi
         python bench/report.py "$to" "$page"

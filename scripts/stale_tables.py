@@ -18,7 +18,7 @@ BUILDS = STORES + ENGINE + ["src/features"]
 PICTURES, PAGES = ["src/render"], "src/features src/catalogue src/page src/preview src/render".split()
 MEASURED = {
     "engine": ENGINE, "phases": ENGINE, "scale-analysis": ENGINE, "extract": SURFACES, "scale-extract": SURFACES,
-    "store-builds": BUILDS, "store-phases": BUILDS, "store-surfaces": STORES, "store-objects": STORES, "scale-stores": BUILDS, "fronts": STORES + ["src/octree_front"],
+    "store-builds": BUILDS, "store-phases": BUILDS, "store-surfaces": STORES, "store-objects": STORES, "scale-stores": BUILDS, "store-decoding": ["src/codec"], "fronts": STORES + ["src/octree_front"],
     "render": PICTURES, "scale-render": PICTURES, "pages": PAGES, "scale-pages": PAGES,
     "formats": ["src/formats/volume", "src/formats/zarr", "src/formats/common"], "python-surfaces": ["python"], "python-facts": ["python"],
     "methods": ["src/methods/search", "src/methods/disk"],
@@ -26,7 +26,7 @@ MEASURED = {
 ROWS = {  # of the tables that list volumes
     "smooth": "smooth-", "noisy": "noisy-", "white": "white-", "CT": "bonsai", "MR": "seg3d_mr", "EM": "emd3001", "labels": "frog_labels",
 }
-LISTS = "engine phases extract store-builds store-phases store-surfaces store-objects render pages python-surfaces".split()
+LISTS = "engine phases extract store-builds store-phases store-decoding store-surfaces store-objects render pages python-surfaces".split()
 TABLE = re.compile(r"<!-- ([\w-]+):begin -->\n(.*?)<!-- \1:end -->", re.S)
 
 

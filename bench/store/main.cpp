@@ -5,6 +5,7 @@
 //   bench_store steps STORE TAU [--threads N] [--repeats N]           steps of a Navigator by 0.5 % of the range, from TAU to its middle
 //   bench_store fronts STORE TAU [--threads N] [--repeats N]          octree fronts, from TAU on by the same steps
 //   bench_store object STORE TAU [--threads N] [--repeats N] [--voxels N]   one object of about that many voxels (1000)
+//   bench_store decode VOLUME [--cache FOLDER] [--data FOLDER] [--repeats N]   bricks of the volume, on one thread: decoding.h
 //   bench_store check STORE TAU VOLUME [--cache FOLDER] [--data FOLDER]   is the surface that of the volume, byte for byte?
 //
 // Each prints one JSON document. --analysis: in turns with an analysis of the volume in memory. Seconds are those of every repeat:
@@ -32,6 +33,7 @@
 
 #include "cold.h"
 #include "command_line.h"
+#include "decoding.h"
 #include "memory.h"
 #include "phase_clock.h"
 #include "volumes.h"
@@ -258,6 +260,7 @@ ordered_json run(const Arguments& arguments) {
     if (verb == "fronts") return measure_fronts(arguments);
     if (verb == "object") return object(arguments);
     if (verb == "check") return check(arguments);
+    if (verb == "decode") return measure_decoding(make(arguments.word(1), arguments.sources), arguments.repeats);
     throw std::runtime_error("unknown verb " + verb);
 }
 
