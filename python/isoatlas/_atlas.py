@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any, Mapping, Optional, Sequence, Union
 import numpy as np
 
 from . import _arrays, _core, _html, _names, _persistence
-from ._calls import Progress, call
+from ._calls import NO_BLOCKS, Blocks, Progress, blocks_of, call
 from ._evolution import save_evolution as _save_evolution
 from ._levels import save_levels as _save_levels
 from ._mesh import Array, Check, Mesh, Path, checked
@@ -234,7 +234,8 @@ class Atlas:
 
     def surface(self, tau: float, *, objects: Sequence[int] = (), contours: Sequence[int] = (), boundary: str = "closed",
                 style: str = "compact", shell: str = "all", normals: bool = True, ids: bool = True, simplify: Optional[float] = None,
-                triangles: int = 0, octree: int = 0, progress: Progress = None, threads: int = 0) -> Mesh:
+                triangles: int = 0, octree: int = 0, octree_error: Optional[float] = None, eye: Optional[Sequence[float]] = None,
+                pixels: float = 1.0, progress: Progress = None, threads: int = 0) -> Mesh:
         """The surface at an isovalue, a closed mesh with points (x, y, z); of 2D volumes closed curves.
 
         Parameters
@@ -260,6 +261,12 @@ class Atlas:
             Simplify to this number of triangles, not fewer; without ``simplify`` at any distance.
         octree : int
             Coarse at once, with the same topology: blocks of 2, 4, 8, 16 or 32 cells where the surface is one disk are a fan of triangles.
+        octree_error : float, optional
+            Smaller blocks, until every point of the exact surface on an edge of the grid is within so many voxels.
+        eye : sequence of float, optional
+            Instead, seen from this place, (x, y, z): they are at most ``pixels`` away, in a picture of 1080 lines that is 30 degrees high.
+        pixels : float
+            With ``eye``.
 
         Raises
         ------
@@ -267,15 +274,14 @@ class Atlas:
             tau is outside the range of the samples, or there is no such object or contour.
         """
         return self._extract(self._source.stored(float(tau)), objects=objects, contours=contours, boundary=boundary, style=style, shell=shell,
-                             normals=normals, ids=ids, simplify=simplify, triangles=triangles, octree=octree, progress=progress,
-                             threads=threads)
+                             normals=normals, ids=ids, simplify=simplify, triangles=triangles, blocks=blocks_of(octree, octree_error, eye, pixels),
+                             progress=progress, threads=threads)
 
     def _extract(self, tau: float, *, objects: Sequence[int] = (), contours: Sequence[int] = (), boundary: str, style: str, shell: str,
-                 normals: bool, ids: bool = True, simplify: Optional[float] = None, triangles: int = 0, octree: int = 0,
+                 normals: bool, ids: bool = True, simplify: Optional[float] = None, triangles: int = 0, blocks: Blocks = NO_BLOCKS,
                  progress: Progress, threads: int) -> Mesh:
-        chosen = [[int(i) for i in given] for given in (objects, contours)]
-        return Mesh(self._source.extract(tau, chosen[0], chosen[1], (boundary, style, shell), normals, ids,
-                                         None if simplify is None else float(simplify), int(triangles), int(octree), call(progress, threads)))
+        return Mesh(self._source.extract(tau, list(map(int, objects)), list(map(int, contours)), (boundary, style, shell), normals, ids,
+                                         None if simplify is None else float(simplify), int(triangles), blocks, call(progress, threads)))
 
     save_evolution = _save_evolution
     save_levels = _save_levels

@@ -1,10 +1,12 @@
-"""What every long call takes: threads and progress."""
+"""What many calls take: threads and progress; blocks of cells."""
 from __future__ import annotations
 
 import sys
-from typing import Any, Callable, Union
+from collections.abc import Sequence
+from typing import Any, Callable, Optional, Union
 
 from . import _core
+from .errors import InputError, raised
 
 #: None or False: nothing is shown; True: a bar of tqdm, or a line; else called with the phase and the part of the whole, 0 to 1.
 Progress = Union[None, bool, Callable[[str, float], object]]
@@ -37,3 +39,19 @@ def call(progress: Progress = None, threads: int = 0) -> _core.Call:
     if progress is True:
         progress = _Bar()
     return _core.Call(threads, progress or None)
+
+
+#: How large blocks of cells may be that are drawn as one piece; their greatest distance; from where they are seen, and in how many pixels.
+Blocks = tuple[int, Optional[float], Optional[tuple[float, float, float]], float]
+NO_BLOCKS: Blocks = (0, None, None, 1.0)
+
+
+def blocks_of(octree: int, octree_error: Optional[float], eye: Optional[Sequence[float]], pixels: float) -> Blocks:
+    """The options of ``surface()`` of these names."""
+    place = None
+    if eye is not None:
+        numbers = [float(x) for x in eye]
+        if len(numbers) != 3:
+            raise raised(InputError, f"eye has {len(numbers)} numbers", expected="three: x, y, z")
+        place = numbers[0], numbers[1], numbers[2]
+    return int(octree), None if octree_error is None else float(octree_error), place, float(pixels)

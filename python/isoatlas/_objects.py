@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple, Optional, Union, overload
 import numpy as np
 
 from . import _html, _names
-from ._calls import Progress
+from ._calls import Progress, blocks_of
 from ._mesh import Array, Mesh
 
 if TYPE_CHECKING:
@@ -105,6 +105,7 @@ class Object:
 
     def surface(self, tau: Optional[float] = None, *, boundary: str = "closed", style: str = "compact", shell: str = "all",
                 normals: bool = True, ids: bool = True, simplify: Optional[float] = None, triangles: int = 0, octree: int = 0,
+                octree_error: Optional[float] = None, eye: Optional[Sequence[float]] = None, pixels: float = 1.0,
                 progress: Progress = None, threads: int = 0) -> Mesh:
         """Its surface, a closed mesh with points (x, y, z); of a cavity its wall.
 
@@ -112,7 +113,7 @@ class Object:
         ----------
         tau : float, optional
             Isovalue instead of the best one: then that of the object at tau which contains the voxel ``id``.
-        boundary, style, shell, normals, ids, simplify, triangles, octree
+        boundary, style, shell, normals, ids, simplify, triangles, octree, octree_error, eye, pixels
             As :meth:`Atlas.surface`.
 
         Raises
@@ -122,8 +123,8 @@ class Object:
         """
         objects, contours = ([], [self.id]) if self.is_cavity else ([self.id], [])
         return self._atlas._extract(self._stored(tau), objects=objects, contours=contours, boundary=boundary, style=style, shell=shell,
-                                    normals=normals, ids=ids, simplify=simplify, triangles=triangles, octree=octree, progress=progress,
-                                    threads=threads)
+                                    normals=normals, ids=ids, simplify=simplify, triangles=triangles,
+                                    blocks=blocks_of(octree, octree_error, eye, pixels), progress=progress, threads=threads)
 
     def mask(self, tau: Optional[float] = None, *, progress: Progress = None, threads: int = 0) -> Array:
         """Which voxels it has: an array of bool in the shape of the volume, (z, y, x)."""

@@ -43,29 +43,40 @@ std::shared_ptr<Source> of_store(const std::string& path, const std::optional<st
     return released([&] { return std::make_shared<Source>(path, options); });
 }
 
-/// Of blocks so many cells wide.
-void require_octree(int cells, bool is_simplified) {
+/// octree=, octree_error=, eye=, pixels=
+using OctreeWords = std::tuple<int, std::optional<double>, std::optional<Vec3>, double>;
+
+/// Of blocks so many cells wide; nullopt: none are asked for.
+std::optional<FrontOptions> front_of(const OctreeWords& words, const Geometry& geometry, bool is_simplified) {
+    const auto& [cells, error, eye, pixels] = words;
+    if (cells == 0) {
+        if (error || eye) throw Error(ErrorKind::usage, {.what = "octree_error= and eye= limit blocks of cells", .next = "add octree=16"});
+        return std::nullopt;
+    }
     if (cells < 2 || cells > 32 || !std::has_single_bit(static_cast<unsigned>(cells))) {
         throw Error(ErrorKind::usage, {.what = "octree=" + std::to_string(cells), .expected = "2, 4, 8, 16 or 32 cells, or 0"});
     }
     if (is_simplified) {
         throw Error(ErrorKind::usage, {.what = "octree= with simplify= or triangles=", .next = "give one of them"});
     }
+    if (error && eye) throw Error(ErrorKind::usage, {.what = "octree_error= with eye=", .next = "give one of them"});
+    FrontOptions front{.max_level = std::countr_zero(static_cast<unsigned>(cells)), .pixels = pixels};
+    if (error) front.deviation = *error;
+    if (eye) front.from = viewpoint_of_picture(*eye, std::ranges::min(geometry.spacing));
+    return front;
 }
 
 std::shared_ptr<Surface> extract(const std::shared_ptr<Source>& source, double tau, const Indices& objects, const Indices& contours,
                                  const std::tuple<std::string, std::string, std::string>& words, bool normals, bool ids,
-                                 const std::optional<double>& voxels, std::int64_t triangles, int octree, const CallOptions& call) {
-    if (octree != 0) require_octree(octree, voxels || triangles > 0);
+                                 const std::optional<double>& voxels, std::int64_t triangles, const OctreeWords& octree,
+                                 const CallOptions& call) {
+    const std::optional<FrontOptions> front = front_of(octree, source->info().geometry, voxels || triangles > 0);
     SurfaceOptions options;
     const auto& [boundary, style, shell] = words;
     options.boundary = boundary_of(boundary), options.style = style_of(style), options.shell = shell_of(shell);
     options.objects = objects, options.contours = contours, options.normals = normals, options.ids = ids;
     return long_call(call, [=](const Context& context) {
-        if (octree != 0) {
-            const int level = std::countr_zero(static_cast<unsigned>(octree));
-            return std::make_shared<Surface>(source->extract_front(tau, {.max_level = level}, options, context).surface);
-        }
+        if (front) return std::make_shared<Surface>(source->extract_front(tau, *front, options, context).surface);
         Surface surface = source->extract(tau, options, context);
         if (voxels || triangles > 0) {
             const SimplificationOptions simplification{.max_distance = voxels.value_or(std::numeric_limits<double>::infinity()),

@@ -10,9 +10,14 @@
 namespace isoatlas {
 namespace {
 
+constexpr double kPictureLines = 1080;
 constexpr double kUnseen = 1.0 / 16;  // coarse, and not so coarse that a turn of the view shows it before finer parts are there
 
 }  // namespace
+
+Viewpoint viewpoint_of_picture(const Vec3& eye, double near) {
+    return {.eye = eye, .pixel = 2 * std::tan(kFieldOfView / 2) / kPictureLines, .near = near};
+}
 
 void require_viewpoint(const Viewpoint& from) {
     const auto require = [](bool holds, const char* what, const char* expected) {

@@ -73,7 +73,15 @@ def test_simplified_surfaces_have_the_same_euler_number():
         coarse = atlas.surface(level, octree=8)
         assert len(coarse) <= len(exact) and euler_number(coarse) == euler_number(exact)
         assert set(coarse.contour_ids) == set(exact.contour_ids)
-    for wrong in ({"octree": 3}, {"octree": 64}, {"octree": 4, "simplify": 0.5}):
+        near, far = (atlas.surface(level, octree=8, eye=(12, 12, z)) for z in (-30, -3000))
+        assert len(coarse) <= len(far) <= len(near) <= len(exact)
+        assert len(atlas.surface(level, octree=8, eye=(12, 12, -30), pixels=4)) <= len(near)
+        assert euler_number(near) == euler_number(far) == euler_number(exact)
+        bounded = atlas.surface(level, octree=8, octree_error=0.1)
+        assert len(coarse) <= len(bounded) and euler_number(bounded) == euler_number(exact)
+    for wrong in ({"octree": 3}, {"octree": 64}, {"octree": 4, "simplify": 0.5}, {"octree_error": 0.1}, {"eye": (0, 0, 0)},
+                  {"octree": 4, "eye": (0, 0)}, {"octree": 4, "eye": (0, 0, 0), "octree_error": 1}, {"octree": 4, "octree_error": 0},
+                  {"octree": 4, "eye": (0, 0, 0), "pixels": 0}):
         with pytest.raises(isoatlas.InputError):
             atlas.surface(level, **wrong)
 

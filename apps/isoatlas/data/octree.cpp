@@ -6,7 +6,6 @@
 
 #include <fmt/format.h>
 
-#include "data/picture.h"
 #include "options/words.h"
 
 namespace isoatlas::cli {
@@ -39,10 +38,7 @@ FrontOptions OctreeUse::options(const Geometry& geometry) const {
     options.max_level = std::countr_zero(static_cast<unsigned>(asked.cells));
     if (asked.error) options.deviation = *asked.error;
     if (!asked.eye.empty()) {
-        constexpr double kPictureLines = 1080;
-        options.from = {.eye = parse_vector("--eye", asked.eye, 0),
-                        .pixel = 2 * std::tan(kHalfAngle) / kPictureLines,
-                        .near = std::ranges::min(geometry.spacing)};
+        options.from = viewpoint_of_picture(parse_vector("--eye", asked.eye, 0), std::ranges::min(geometry.spacing));
         options.pixels = asked.pixels.value_or(1);
     }
     return options;

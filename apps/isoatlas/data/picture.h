@@ -33,7 +33,7 @@ struct ShownObject {
     ShownPart part = ShownPart::object;
 };
 
-inline constexpr double kHalfAngle = 15 * std::numbers::pi / 180;  ///< half the default field of view, as in the viewer
+inline constexpr double kHalfAngle = kFieldOfView / 2;
 
 /// --eye, --target, --height
 struct ShownCamera {
