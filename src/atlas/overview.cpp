@@ -27,6 +27,16 @@ bool has_tables(const Container& store) {
 
 }  // namespace
 
+std::optional<ObjectTable> stored_objects(const Atlas& atlas) {
+    constexpr std::array<std::string_view, 2> kTable{"objects", "isovalues"};
+    const Container& store = AtlasAccess::store(atlas);
+    store.fetch_groups(kTable);
+    if (!has_objects(store)) return std::nullopt;
+    ObjectTable objects = objects_of(store);
+    if (!is_whole(objects)) return std::nullopt;
+    return objects;
+}
+
 Overview overview_of(const Atlas& atlas, const Context& context) {
     AtlasAccess::store(atlas).fetch_groups(kGroups);
     if (has_tables(AtlasAccess::store(atlas)))

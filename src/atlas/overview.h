@@ -2,6 +2,8 @@
 // samples.
 #pragma once
 
+#include <optional>
+
 #include "isoatlas/cavities.h"
 #include "isoatlas/objects.h"
 #include "isoatlas/simplify.h"
@@ -19,5 +21,8 @@ struct Overview {
 /// Atlas::objects(), cavities() and hierarchy(); the trees stay with the atlas. Throws Error: input (damaged), cancelled. Cost: that of
 /// hierarchy(), and where the store has no tables ranking both sides.
 [[nodiscard]] Overview overview_of(const Atlas& atlas, const Context& context);
+
+/// The table of objects, without the trees; nullopt: the store has it not, or not all of it. Throws Error{input} (damaged).
+[[nodiscard]] std::optional<ObjectTable> stored_objects(const Atlas& atlas);
 
 }  // namespace isoatlas

@@ -63,4 +63,17 @@ std::vector<std::vector<FileRange>> plan_range_sets(std::span<const FileRange> r
     return sets;
 }
 
+std::vector<FileRange> without(std::vector<FileRange> ranges, std::span<const FileRange> others) {
+    for (const FileRange& other : others) {
+        std::vector<FileRange> left;
+        for (const FileRange& range : ranges) {
+            const FileRange before{range.begin, std::min(range.end, other.begin)}, behind{std::max(range.begin, other.end), range.end};
+            if (before.bytes() > 0) left.push_back(before);
+            if (behind.bytes() > 0) left.push_back(behind);
+        }
+        ranges = std::move(left);
+    }
+    return ranges;
+}
+
 }  // namespace isoatlas

@@ -28,4 +28,7 @@ inline constexpr std::int64_t kLongestRequest = std::int64_t{2} << 20;
 /// `connections` at a time.
 [[nodiscard]] std::vector<std::vector<FileRange>> plan_range_sets(std::span<const FileRange> ranges, int connections);
 
+/// The parts of ranges that none of the others holds; both in any order.
+[[nodiscard]] std::vector<FileRange> without(std::vector<FileRange> ranges, std::span<const FileRange> others);
+
 }  // namespace isoatlas

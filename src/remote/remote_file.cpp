@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <cerrno>
 #include <chrono>
+#include <condition_variable>
 #include <cstring>
 #include <mutex>
+#include <numeric>
 #include <optional>
 #include <utility>
 
@@ -64,6 +66,52 @@ bool is_same(const Version& version, const HttpAnswer& answer) {
            agree(version.last_modified, answer.last_modified);
 }
 
+/// Where a read goes: [offset, offset + size), and which of it is still to come.
+class ReadTarget {
+public:
+    ReadTarget(std::int64_t offset, std::span<std::byte> out) : offset_(offset), out_(out), open_{{offset, offset + std::ssize(out)}} {
+        if (out.empty()) open_.clear();
+    }
+    [[nodiscard]] const std::vector<FileRange>& open() const { return open_; }
+    /// Copies what belongs there.
+    void put(std::int64_t begin, std::span<const std::byte> bytes) {
+        const FileRange range{std::max(begin, offset_), std::min(begin + std::ssize(bytes), offset_ + std::ssize(out_))};
+        if (range.bytes() <= 0) return;
+        std::memcpy(part(range).data(), bytes.data() + (range.begin - begin), static_cast<std::size_t>(range.bytes()));
+        open_ = without(std::move(open_), {&range, 1});
+    }
+    /// Takes what is in memory of what is to come.
+    void take_from(PieceCache& pieces, std::int64_t file) {
+        std::vector<FileRange> taken;
+        for (FileRange range : open_) {
+            range.end = range.begin + static_cast<std::int64_t>(pieces.read(file, range.begin, part(range)));
+            if (range.bytes() > 0) taken.push_back(range);
+        }
+        open_ = without(std::move(open_), taken);
+    }
+
+private:
+    [[nodiscard]] std::span<std::byte> part(const FileRange& range) const {
+        return out_.subspan(static_cast<std::size_t>(range.begin - offset_), static_cast<std::size_t>(range.bytes()));
+    }
+    std::int64_t offset_;
+    std::span<std::byte> out_;
+    std::vector<FileRange> open_;
+};
+
+/// Releases a lock while it exists.
+class Unlocked {
+public:
+    explicit Unlocked(std::unique_lock<std::mutex>& lock) : lock_(lock) { lock_.unlock(); }
+    Unlocked(const Unlocked&) = delete;
+    Unlocked& operator=(const Unlocked&) = delete;
+    ~Unlocked() { lock_.lock(); }
+
+private:
+    std::unique_lock<std::mutex>& lock_;
+};
+
+/// Several threads may wait for answers at the same time; what one has asked for, the others wait for.
 class RemoteFile final : public File {
 public:
     RemoteFile(std::shared_ptr<RemoteShared> shared, Address address, Version version, const HttpAnswer& first)
@@ -87,23 +135,20 @@ public:
     std::ptrdiff_t read_at(std::int64_t offset, std::span<std::byte> out) override {
         if (offset < 0) return -EINVAL;
         out = out.first(static_cast<std::size_t>(std::clamp<std::int64_t>(version_.size - offset, 0, std::ssize(out))));
-        std::size_t done = there(offset, out);
-        if (done == out.size()) return std::ssize(out);
-        const std::scoped_lock lock(fetching_);
-        done = there(offset, out);  // another thread may have fetched it
-        const std::int64_t begin = offset + static_cast<std::int64_t>(done), end = offset + std::ssize(out);
-        if (begin == end) return std::ssize(out);
+        if (there(offset, out) == out.size()) return std::ssize(out);
+        ReadTarget target(offset, out);
+        std::unique_lock lock(mutex_);
+        target.take_from(shared_->pieces, id_);  // another thread may have fetched it
+        if (target.open().empty()) return std::ssize(out);
+        const std::int64_t begin = target.open().front().begin, end = offset + std::ssize(out);
         const bool goes_on = offset <= reached_ && reached_ < end;
         ahead_ = goes_on ? std::min(2 * ahead_, kMostAhead) : kLeastBytes;
         reached_ = end;
-        const std::vector<FileRange> gaps = shared_->pieces.missing(id_, {begin, std::min(std::max(end, begin + ahead_), version_.size)});
-        fetch(gaps, offset, out);
-        std::int64_t position = begin;
-        for (const FileRange& gap : gaps) {
-            copy_present({position, std::min(gap.begin, end)}, offset, out);
-            position = gap.end;
+        const FileRange wanted{begin, std::min(std::max(end, begin + ahead_), version_.size)};
+        while (!target.open().empty()) {
+            fetch(lock, {&wanted, 1}, target);
+            target.take_from(shared_->pieces, id_);
         }
-        copy_present({position, end}, offset, out);
         return std::ssize(out);
     }
 
@@ -127,8 +172,9 @@ public:
             wanted.push_back({range.begin, std::min(range.end, range.begin + left)});
             left -= wanted.back().bytes();
         }
-        const std::scoped_lock lock(fetching_);
-        fetch(wanted, 0, {});
+        std::unique_lock lock(mutex_);
+        ReadTarget nowhere(0, {});
+        fetch(lock, wanted, nowhere);
     }
 
 private:
@@ -145,33 +191,55 @@ private:
         return all;
     }
 
-    /// Copies a range that was in memory; fetches it where other files have replaced it since.
-    void copy_present(const FileRange& range, std::int64_t offset, std::span<std::byte> out) {
-        if (range.bytes() <= 0) return;
-        const auto part = out.subspan(static_cast<std::size_t>(range.begin - offset), static_cast<std::size_t>(range.bytes()));
-        if (there(range.begin, part) < part.size()) fetch({range}, offset, out);
-    }
-
-    /// Brings ranges into memory, and copies what lies in [offset, offset + out.size()) of them. The caller holds fetching_.
-    void fetch(const std::vector<FileRange>& ranges, std::int64_t offset, std::span<std::byte> out) {
+    /// Brings the missing parts of ranges into memory, and into the target. The caller holds the lock, which is released meanwhile.
+    void fetch(std::unique_lock<std::mutex>& lock, std::span<const FileRange> ranges, ReadTarget& target) {
         const auto take = [&](std::int64_t begin, std::span<const std::byte> bytes) {
             shared_->pieces.add(id_, begin, bytes);
-            copy_part(begin, bytes, offset, out);
+            target.put(begin, bytes);
         };
         for (const FileRange& range : missing(ranges)) shared_->from_disk += shared_->disk.load(cached_, range, take);
-        std::vector<FileRange> wanted = missing(ranges);
-        if (wanted.size() > 1 && takes_several_) wanted = fetch_sets(plan_range_sets(wanted, shared_->options.connections), take);
-        std::vector<RangeSet> single;
-        for (const FileRange& request : plan_requests(wanted)) single.push_back({request});
-        (void)fetch_sets(single, take);
+        const std::vector<FileRange> wanted = missing(ranges);
+        if (std::vector<FileRange> own = without(wanted, asked_); !own.empty()) {
+            const Asked asked(*this, own);
+            if (own.size() > 1 && takes_several_) own = fetch_sets(lock, plan_range_sets(own, shared_->options.connections), take);
+            std::vector<RangeSet> single;
+            for (const FileRange& request : plan_requests(own)) single.push_back({request});
+            (void)fetch_sets(lock, single, take);
+        }
+        const auto bytes_of = [](const std::vector<FileRange>& all) {
+            return std::accumulate(all.begin(), all.end(), std::int64_t{0}, [](auto sum, const FileRange& r) { return sum + r.bytes(); });
+        };
+        answered_.wait(lock, [&] { return bytes_of(without(wanted, asked_)) == bytes_of(wanted); });  // what others have asked for
     }
+
+    /// What this thread asks for while it exists. Begins and ends with the lock held.
+    class Asked {
+    public:
+        Asked(RemoteFile& file, std::vector<FileRange> ranges) : file_(file), ranges_(std::move(ranges)) {
+            file_.asked_.insert(file_.asked_.end(), ranges_.begin(), ranges_.end());
+        }
+        Asked(const Asked&) = delete;
+        Asked& operator=(const Asked&) = delete;
+        ~Asked() {  // ranges of different threads are apart
+            std::erase_if(file_.asked_, [this](const FileRange& range) { return std::ranges::find(ranges_, range) != ranges_.end(); });
+            file_.answered_.notify_all();
+        }
+
+    private:
+        RemoteFile& file_;
+        std::vector<FileRange> ranges_;
+    };
 
     /// Asks for each set in one request. Returns the ranges that a server which does not answer several in one request has left out.
     template <class Take>
-    std::vector<FileRange> fetch_sets(const std::vector<RangeSet>& sets, const Take& take) {
+    std::vector<FileRange> fetch_sets(std::unique_lock<std::mutex>& lock, const std::vector<RangeSet>& sets, const Take& take) {
         std::vector<FileRange> left;
         if (sets.empty()) return left;
-        const std::vector<HttpAnswer> answers = shared_->client.get(address_, sets, 0);
+        std::vector<HttpAnswer> answers;
+        {
+            const Unlocked meanwhile(lock);
+            answers = shared_->client.get(address_, sets, 0);
+        }
         for (std::size_t i = 0; i < sets.size(); ++i) {
             const HttpAnswer& answer = answers[i];
             if (sets[i].size() > 1 && (answer.lacks_ranges || answer.status == 200 || answer.status == 416) && is_same(version_, answer)) {
@@ -189,12 +257,6 @@ private:
         return left;
     }
 
-    static void copy_part(std::int64_t begin, std::span<const std::byte> bytes, std::int64_t offset, std::span<std::byte> out) {
-        const std::int64_t first = std::max(begin, offset), last = std::min(begin + std::ssize(bytes), offset + std::ssize(out));
-        if (first >= last) return;
-        std::memcpy(out.data() + (first - offset), bytes.data() + (first - begin), static_cast<std::size_t>(last - first));
-    }
-
     void check(const HttpAnswer& answer) const {
         const bool has_version = answer.total >= 0 || !answer.etag.empty();
         const bool is_other =
@@ -210,7 +272,9 @@ private:
     Version version_;
     std::int64_t id_;
     std::vector<std::byte> whole_;  ///< of a server without ranges
-    std::mutex fetching_;
+    std::mutex mutex_;              ///< for all that follows; not held while answers are waited for
+    std::condition_variable answered_;
+    std::vector<FileRange> asked_;  ///< on their way, apart
     CachedVersion cached_;
     bool takes_several_ = true;                       ///< ranges in one request, as far as is known
     std::int64_t reached_ = 0, ahead_ = kLeastBytes;  ///< the end of the last read; bytes to fetch when the next one goes on there

@@ -124,6 +124,8 @@ private:
     /// A surface of at most so many triangles, if it can be reduced to so many: a level of detail where the store has it.
     [[nodiscard]] WireMesh mesh_of(const Atlas& atlas, double tau, const SurfaceOptions& options, const MeshWanted& wanted,
                                    const Context& context);
+    /// The surface of the entry that every page shows first, on this thread.
+    void prepare_first(const NamedEntry& first, const Context& context);
     /// Is it the first surface of every page?
     [[nodiscard]] bool is_first(const Atlas& atlas, double tau, const SurfaceOptions& options, const MeshWanted& wanted) const;
 
@@ -139,7 +141,8 @@ private:
     Naming naming_;
     SharedOnce<StoreCatalogue> known_;
     StoreLevels levels_;
-    SharedOnce<WireMesh> first_;  ///< coarse: some ten kilobytes
+    SharedOnce<NamedEntry> first_entry_;  ///< that of first_
+    SharedOnce<WireMesh> first_;          ///< coarse: some ten kilobytes
     std::atomic<bool> ended_ = false;
 };
 

@@ -1,10 +1,14 @@
 // Surfaces as meshes or files: of the whole store, or of its levels of detail; the first one of a page is kept.
 #include <algorithm>
 #include <cmath>
+#include <exception>
 #include <limits>
 #include <numbers>
 
+#include "atlas/overview.h"
+#include "base/workers.h"
 #include "formats/common/byte_writer.h"
+#include "isoatlas/cards.h"
 #include "isoatlas/isovalue.h"
 #include "isoatlas/polarity.h"
 #include "server/answers.h"
@@ -25,9 +29,26 @@ constexpr std::int64_t kMaxPointDivisions = 8;
 constexpr int kFrontLevel = 4;        ///< blocks of a front are at most 16 cells wide
 constexpr double kStepsOfVoxel = 64;  ///< steps of positions per voxel
 
-/// The entry that every page shows first; null: none, or a cavity.
-const NamedEntry* first_of(const StoreCatalogue& known) {
-    return known.entries.empty() || known.entries.front().is_cavity ? nullptr : &known.entries.front();
+/// The entry that every page shows first (firstToShow() of web/src/shared/cards.ts); nullopt: none, or a cavity.
+std::optional<NamedEntry> first_of(const StoreCatalogue& known) {
+    if (known.entries.empty()) return std::nullopt;
+    const auto shown = std::ranges::find(known.contents.entries, false, &PageEntry::is_background);
+    const NamedEntry& first =
+        shown == known.contents.entries.end() ? known.entries.front() : known.entries[shown - known.contents.entries.begin()];
+    return first.is_cavity ? std::nullopt : std::optional(first);
+}
+
+/// The same, from the table alone; nullopt: the whole catalogue must tell.
+std::optional<NamedEntry> first_of_table(const StoreSides& sides) {
+    if (sides.has_both()) return std::nullopt;
+    std::optional<ObjectTable> objects = stored_objects(sides.main);
+    if (!objects) return std::nullopt;
+    const ObjectTable table = first_entries(std::move(*objects), PageOptions{}.top);
+    if (table.entries.empty()) return std::nullopt;
+    const std::vector<Card> cards = cards_of(table, sides.main.info().extent);
+    const auto shown = std::ranges::find(cards, false, &Card::is_background);
+    const ObjectEntry& first = table.entries[shown == cards.end() ? 0 : shown - cards.begin()];
+    return NamedEntry{first.id, first.best_tau, first.voxels, false, polarity_of(sides.main.info())};
 }
 
 /// NAME=X,Y,Z; nothing: without it.
@@ -77,19 +98,36 @@ auto if_it_fits(const Make& make) -> std::optional<decltype(make())> try {
 void Service::prepare(const Context& context) {
     Context own = context_;
     own.cancelled = [&] { return ended_ || (context.cancelled && context.cancelled()); };
-    const NamedEntry* first = first_of(known(own));
     const StoreSides sides = store_state_.sides();
-    if (first == nullptr || sides.main.info().extent.rank != 3) return;
-    const Atlas& atlas = sides.of(first->polarity);
+    const bool is_volume = sides.main.info().extent.rank == 3;
+    std::optional<NamedEntry> first = is_volume ? first_of_table(sides) : std::nullopt;
+    std::exception_ptr failure;
+    Workers beside(1);  // of a store on a server, the surface does not wait for the trees
+    const bool is_early = first && beside.post([&] {
+        try {
+            prepare_first(*first, own);
+        } catch (...) {
+            failure = std::current_exception();
+        }
+    });
+    const StoreCatalogue& all = known(own);
+    beside.wait();
+    if (failure) std::rethrow_exception(failure);
+    if (!is_early && is_volume) first = first_of(all);
+    if (!is_early && first) prepare_first(*first, own);
+}
+
+void Service::prepare_first(const NamedEntry& first, const Context& context) {
+    (void)first_entry_.get(context, [&](const Context&) { return first; });
+    const Atlas& atlas = store_state_.sides().of(first.polarity);
     SurfaceOptions options;
     options.ids = false;
-    options.objects = {first->id};
-    (void)first_.get(own, [&](const Context& shared) { return mesh_of(atlas, first->tau, options, {kFirstTriangles, {}}, shared); });
+    options.objects = {first.id};
+    (void)first_.get(context, [&](const Context& shared) { return mesh_of(atlas, first.tau, options, {kFirstTriangles, {}}, shared); });
 }
 
 bool Service::is_first(const Atlas& atlas, double tau, const SurfaceOptions& options, const MeshWanted& wanted) const {
-    const StoreCatalogue* known = known_.there();
-    const NamedEntry* first = known == nullptr ? nullptr : first_of(*known);
+    const NamedEntry* first = first_entry_.there();
     if (first == nullptr || wanted.triangles != kFirstTriangles || wanted.from || first->polarity != polarity_of(atlas.info()))
         return false;
     const bool is_alone = options.objects == std::vector{first->id} && options.contours.empty() && options.shell == ShellChoice::all;

@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
 """Files on web servers: the same answers as from a file of this machine, or one message that says what is wrong. Faulty servers included."""
+import concurrent.futures
 import contextlib
 import json
 import os
@@ -360,6 +361,27 @@ class FirstPicture(CliTest):
             self.assertLess((round_trips + 2) * ROUND_TRIP + server.bytes / BYTES_A_SECOND, 2)
             self.assertLess(round_trips, 25)
             self.assertLess(server.bytes, (self.folder / "scan.atlas").stat().st_size)
+
+    def test_many_at_once(self):
+        """What several requests need is asked for once; each gets what it gets of a local store, also where some answers are cut short."""
+        def all_at_once(store):
+            viewer = Viewer(self.folder, store, "--cache", "0", "-v")
+            try:
+                atlas = json.loads(viewer.ask("/api/atlas")[2])
+                paths = [f"/api/surface?tau={entry['tau']}&max={most}" for entry in atlas["entries"][:4] for most in (20000, 30000)]
+                with concurrent.futures.ThreadPoolExecutor(len(paths)) as threads:
+                    return [answer[::2] for answer in threads.map(viewer.ask, paths)]
+            finally:
+                code, said = viewer.stop()
+                assert code == 0, said
+
+        local = all_at_once("scan.atlas")
+        self.assertEqual({status for status, _ in local}, {200})
+        for faults in (None, small_pieces(1)):
+            with self.subTest(faults=faults is not None), FileServer(self.folder, faults=faults) as server:
+                self.assertEqual(all_at_once(f"{server.address}/scan.atlas"), local)
+                if faults is None:
+                    self.assertLess(server.bytes, 1.5 * (self.folder / "scan.atlas").stat().st_size)
 
     def test_answers_cut_short(self):
         for seed in range(3):

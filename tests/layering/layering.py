@@ -67,7 +67,7 @@ MAX_LINES = 400
 # header (regular expression on the text between the brackets) -> files that may include it (regular expression on the path)
 DOORS = {
     r"tbb/.*|oneapi/.*": r"src/base/(parallel\.cpp|shared_vector\.h)",
-    r"future|condition_variable|stop_token": r"(apps|tests|bench)/.*|src/base/memory_budgets\.h|src/base/workers\.h|src/server/(job_queue|version_counter|shared_once)\.h",
+    r"future|condition_variable|stop_token": r"(apps|tests|bench)/.*|src/base/memory_budgets\.h|src/base/workers\.h|src/remote/remote_file\.cpp|src/server/(job_queue|version_counter|shared_once)\.h",
     r"thread": r"(apps|tests|bench)/.*|src/base/parallel.*\.cpp|src/base/cancel\.h|src/base/memory_(budgets\.h|limit\.cpp)|src/base/workers\.h",  # asks which thread it is on; watches memory, computes nothing
     r"mutex": r"(apps|tests|bench|src/base)/.*|src/analysis/analysis_data\.h|src/zones/open_voxels\.h|src/methods/zones/filing_runs\.h|src/formats/common/hdf5_(handle\.h|layout\.cpp)|src/formats/volume/hdf5_(file|samples|storage|driver|object)\.cpp|src/bricks/(stored_samples|brick_cache|brick_histogram)\.(h|cpp)|src/atlas/atlas\.cpp|src/remote/.*|src/server/(job_queue|version_counter|store_state|store_levels|event_stream|shared_once|access_control|naming|shared_scene|volume_services)\.h",  # std::once_flag: the index is made when first asked for
     r"mpi\.h": r"(?!)",

@@ -1,6 +1,7 @@
 // Requests for lists of ranges: they cover what is wanted, waste little, and are few.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <numeric>
 #include <random>
 
@@ -75,6 +76,33 @@ TEST(RangePlan, SetsOfRangesHoldWhatIsWantedAndLittleElse) {
             }
             expect_sound(all, wanted);
             EXPECT_LE(total(all) - total(wanted), static_cast<std::int64_t>(count) * kPartGap);
+        }
+    }
+}
+
+TEST(RangePlan, WithoutLeavesTheBytesOfNoOther) {
+    std::mt19937_64 random(3);
+    for (int trial = 0; trial < 200; ++trial) {
+        const std::vector<FileRange> ranges = random_ranges(random, 5, 3000);
+        const std::int64_t moved = static_cast<std::int64_t>(random() % 20000) - 10000;
+        std::vector<FileRange> others = random_ranges(random, 5, 3000);
+        for (FileRange& other : others) other.begin += moved, other.end += moved;
+        std::ranges::shuffle(others, random);
+        const auto holds = [](const std::vector<FileRange>& all, std::int64_t byte) {
+            return std::ranges::any_of(all, [&](const FileRange& r) { return r.begin <= byte && byte < r.end; });
+        };
+        const std::vector<FileRange> left = without(ranges, others);
+        std::int64_t last = ranges.front().begin;
+        for (const FileRange& range : left) {
+            EXPECT_GE(range.begin, last);
+            EXPECT_GT(range.bytes(), 0);
+            last = range.end;
+        }
+        for (const auto& all : {ranges, others, left}) {
+            for (const FileRange& range : all) {
+                for (const std::int64_t byte : {range.begin - 1, range.begin, range.end - 1, range.end})
+                    EXPECT_EQ(holds(left, byte), holds(ranges, byte) && !holds(others, byte)) << byte;
+            }
         }
     }
 }
