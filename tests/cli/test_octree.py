@@ -1,6 +1,9 @@
 """extract --octree: surfaces by blocks of cells, of volumes and of stores, with the topology of the exact one."""
+import struct
+
 import harness
 from harness import CliTest
+from served import Viewer
 
 
 class Octree(CliTest):
@@ -90,6 +93,24 @@ class Octree(CliTest):
             output = [] if "-o" in options else ["-o", "front.glb"]
             self.run_error(2, "extract", "demo.nrrd", "--tau", "90", *options, *output, says=said)
             self.assertFalse((self.folder / "front.glb").exists())
+
+    @harness.unittest.skipIf(harness.SANITIZED, "a sanitizer takes more than the memory of the server")
+    def test_a_server_with_little_memory_draws_blocks(self):
+        """More triangles than its memory allows: a front, with the same Euler number, and how far it may be."""
+        self.run_ok("phantom", "random-field", "--size", "160", "-o", "large.nrrd")
+        self.run_ok("build", "large.nrrd", "-o", "large.atlas")
+        exact = self.run_json("extract", "large.atlas", "--tau", "0.1", "-o", "exact.ply")
+        viewer = Viewer(self.folder, "large.atlas", "--memory", "80M")
+        try:
+            status, headers, mesh = viewer.ask("/api/surface?tau=0.1&max=100000000")
+        finally:
+            viewer.stop()
+        self.assertEqual((status, headers["X-Coarse"]), (200, "1"))
+        _, points, triangles = struct.unpack_from("<4sII", mesh)
+        self.assertLess(triangles, exact["triangles"])
+        self.assertEqual(triangles, int(headers["X-Triangles"]))
+        self.assertEqual(points - triangles // 2, exact["points"] - exact["triangles"] // 2)  # of closed surfaces
+        self.assertLess(float(headers["X-Distance"]), 16 * 2)
 
 
 if __name__ == "__main__":
