@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "codec/brick_codec.h"
+#include "field/copy_box.h"
 
 namespace bench {
 namespace {
@@ -39,26 +40,17 @@ struct Bricks {
     }
 };
 
-template <class T>
-std::vector<T> box(std::span<const T> samples, const isoatlas::Index3& size, const isoatlas::Index3& begin) {
-    std::vector<T> inside;
-    for (std::int64_t z = 0; z < kBrickSize[2]; ++z)
-        for (std::int64_t y = 0; y < kBrickSize[1]; ++y) {
-            const auto row = samples.subspan(begin[0] + size[0] * (begin[1] + y + size[1] * (begin[2] + z)), kBrickSize[0]);
-            inside.insert(inside.end(), row.begin(), row.end());
-        }
-    return inside;
-}
-
 /// Every stride-th whole brick, those that are constant left out.
 template <class T>
 Bricks<T> encoded(std::span<const T> samples, const isoatlas::Index3& size) {
     const std::int64_t nx = size[0] / kBrickSize[0], ny = size[1] / kBrickSize[1], nz = size[2] / kBrickSize[2];
     const std::int64_t stride = std::max<std::int64_t>(1, nx * ny * nz / kMost);
     Bricks<T> all;
+    std::vector<T> inside(kBrickSamples);
     for (std::int64_t i = 0; i < nx * ny * nz && std::ssize(all.bricks) < kMost; i += stride) {
-        const std::vector<T> inside =
-            box(samples, size, {i % nx * kBrickSize[0], i / nx % ny * kBrickSize[1], i / (nx * ny) * kBrickSize[2]});
+        const isoatlas::Index3 corner{i % nx * kBrickSize[0], i / nx % ny * kBrickSize[1], i / (nx * ny) * kBrickSize[2]};
+        isoatlas::copy_box(kBrickSize, {std::as_bytes(samples), size, corner},
+                           {std::as_writable_bytes(std::span(inside)), kBrickSize, {0, 0, 0}}, sizeof(T));
         const auto [low, high] = isoatlas::extremes_of<T>(inside);
         if (low == high) continue;
         const isoatlas::BrickCode code = isoatlas::choose_code<T>(inside, kBrickSize, low);

@@ -49,6 +49,7 @@ using OctreeWords = std::tuple<int, std::optional<double>, std::optional<Vec3>, 
 /// Of blocks so many cells wide; nullopt: none are asked for.
 std::optional<FrontOptions> front_of(const OctreeWords& words, const Geometry& geometry, bool is_simplified) {
     const auto& [cells, error, eye, pixels] = words;
+    if (pixels != 1 && !eye) throw Error(ErrorKind::usage, {.what = "pixels= are seen from an eye", .next = "add eye=(x, y, z)"});
     if (cells == 0) {
         if (error || eye) throw Error(ErrorKind::usage, {.what = "octree_error= and eye= limit blocks of cells", .next = "add octree=16"});
         return std::nullopt;

@@ -27,14 +27,12 @@ bool has_tables(const Container& store) {
 
 }  // namespace
 
-std::optional<ObjectTable> stored_objects(const Atlas& atlas) {
+std::optional<ObjectTable> stored_objects(const Atlas& atlas, std::int64_t top, const Context& context) {
     constexpr std::array<std::string_view, 2> kTable{"objects", "isovalues"};
     const Container& store = AtlasAccess::store(atlas);
     store.fetch_groups(kTable);
     if (!has_objects(store)) return std::nullopt;
-    ObjectTable objects = objects_of(store);
-    if (!is_whole(objects)) return std::nullopt;
-    return objects;
+    return atlas.objects({.top = top}, context);  // which keeps the table for overview_of()
 }
 
 Overview overview_of(const Atlas& atlas, const Context& context) {

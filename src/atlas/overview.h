@@ -2,6 +2,7 @@
 // samples.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 
 #include "isoatlas/cavities.h"
@@ -22,7 +23,8 @@ struct Overview {
 /// hierarchy(), and where the store has no tables ranking both sides.
 [[nodiscard]] Overview overview_of(const Atlas& atlas, const Context& context);
 
-/// The table of objects, without the trees; nullopt: the store has it not, or not all of it. Throws Error{input} (damaged).
-[[nodiscard]] std::optional<ObjectTable> stored_objects(const Atlas& atlas);
+/// Atlas::objects() of at most kStoredEntries (atlas/object_arrays.h), without the trees; nullopt: the store has no table. Throws
+/// Error{input} (damaged).
+[[nodiscard]] std::optional<ObjectTable> stored_objects(const Atlas& atlas, std::int64_t top, const Context& context);
 
 }  // namespace isoatlas

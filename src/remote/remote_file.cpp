@@ -6,7 +6,6 @@
 #include <condition_variable>
 #include <cstring>
 #include <mutex>
-#include <numeric>
 #include <optional>
 #include <utility>
 
@@ -206,10 +205,7 @@ private:
             for (const FileRange& request : plan_requests(own)) single.push_back({request});
             (void)fetch_sets(lock, single, take);
         }
-        const auto bytes_of = [](const std::vector<FileRange>& all) {
-            return std::accumulate(all.begin(), all.end(), std::int64_t{0}, [](auto sum, const FileRange& r) { return sum + r.bytes(); });
-        };
-        answered_.wait(lock, [&] { return bytes_of(without(wanted, asked_)) == bytes_of(wanted); });  // what others have asked for
+        answered_.wait(lock, [&] { return without(wanted, asked_) == wanted; });  // what others have asked for
     }
 
     /// What this thread asks for while it exists. Begins and ends with the lock held.

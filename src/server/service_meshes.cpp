@@ -29,26 +29,28 @@ constexpr std::int64_t kMaxPointDivisions = 8;
 constexpr int kFrontLevel = 4;        ///< blocks of a front are at most 16 cells wide
 constexpr double kStepsOfVoxel = 64;  ///< steps of positions per voxel
 
-/// The entry that every page shows first (firstToShow() of web/src/shared/cards.ts); nullopt: none, or a cavity.
+/// Which entry every page shows first: one that is more than background, if there is any (firstToShow() of web/src/shared/cards.ts).
+template <class Entry>
+std::size_t first_to_show(const std::vector<Entry>& entries) {
+    const auto shown = std::ranges::find(entries, false, &Entry::is_background);
+    return shown == entries.end() ? 0 : static_cast<std::size_t>(shown - entries.begin());
+}
+
+/// nullopt: there is none, or a cavity.
 std::optional<NamedEntry> first_of(const StoreCatalogue& known) {
     if (known.entries.empty()) return std::nullopt;
-    const auto shown = std::ranges::find(known.contents.entries, false, &PageEntry::is_background);
-    const NamedEntry& first =
-        shown == known.contents.entries.end() ? known.entries.front() : known.entries[shown - known.contents.entries.begin()];
+    const NamedEntry& first = known.entries[first_to_show(known.contents.entries)];
     return first.is_cavity ? std::nullopt : std::optional(first);
 }
 
 /// The same, from the table alone; nullopt: the whole catalogue must tell.
-std::optional<NamedEntry> first_of_table(const StoreSides& sides) {
+std::optional<NamedEntry> first_of_table(const StoreSides& sides, const Context& context) {
     if (sides.has_both()) return std::nullopt;
-    std::optional<ObjectTable> objects = stored_objects(sides.main);
-    if (!objects) return std::nullopt;
-    const ObjectTable table = first_entries(std::move(*objects), PageOptions{}.top);
-    if (table.entries.empty()) return std::nullopt;
-    const std::vector<Card> cards = cards_of(table, sides.main.info().extent);
-    const auto shown = std::ranges::find(cards, false, &Card::is_background);
-    const ObjectEntry& first = table.entries[shown == cards.end() ? 0 : shown - cards.begin()];
-    return NamedEntry{first.id, first.best_tau, first.voxels, false, polarity_of(sides.main.info())};
+    const std::optional<ObjectTable> table = stored_objects(sides.main, PageOptions{}.top, context);
+    if (!table || table->entries.empty()) return std::nullopt;
+    const VolumeInfo& info = sides.main.info();
+    const ObjectEntry& first = table->entries[first_to_show(cards_of(*table, info.extent))];
+    return NamedEntry{first.id, first.best_tau, first.voxels, false, polarity_of(info)};
 }
 
 /// NAME=X,Y,Z; nothing: without it.
@@ -100,12 +102,12 @@ void Service::prepare(const Context& context) {
     own.cancelled = [&] { return ended_ || (context.cancelled && context.cancelled()); };
     const StoreSides sides = store_state_.sides();
     const bool is_volume = sides.main.info().extent.rank == 3;
-    std::optional<NamedEntry> first = is_volume ? first_of_table(sides) : std::nullopt;
+    const std::optional<NamedEntry> early = is_volume ? first_of_table(sides, own) : std::nullopt;
     std::exception_ptr failure;
     Workers beside(1);  // of a store on a server, the surface does not wait for the trees
-    const bool is_early = first && beside.post([&] {
+    const bool is_beside = early && beside.post([&] {
         try {
-            prepare_first(*first, own);
+            prepare_first(*early, own);
         } catch (...) {
             failure = std::current_exception();
         }
@@ -113,8 +115,8 @@ void Service::prepare(const Context& context) {
     const StoreCatalogue& all = known(own);
     beside.wait();
     if (failure) std::rethrow_exception(failure);
-    if (!is_early && is_volume) first = first_of(all);
-    if (!is_early && first) prepare_first(*first, own);
+    if (is_beside || !is_volume) return;
+    if (const std::optional<NamedEntry> first = first_of(all)) prepare_first(*first, own);
 }
 
 void Service::prepare_first(const NamedEntry& first, const Context& context) {

@@ -81,7 +81,7 @@ def test_simplified_surfaces_have_the_same_euler_number():
         assert len(coarse) <= len(bounded) and euler_number(bounded) == euler_number(exact)
     for wrong in ({"octree": 3}, {"octree": 64}, {"octree": 4, "simplify": 0.5}, {"octree_error": 0.1}, {"eye": (0, 0, 0)},
                   {"octree": 4, "eye": (0, 0)}, {"octree": 4, "eye": (0, 0, 0), "octree_error": 1}, {"octree": 4, "octree_error": 0},
-                  {"octree": 4, "eye": (0, 0, 0), "pixels": 0}):
+                  {"octree": 4, "eye": (0, 0, 0), "pixels": 0}, {"octree": 4, "pixels": 2}, {"pixels": 2}):
         with pytest.raises(isoatlas.InputError):
             atlas.surface(level, **wrong)
 

@@ -33,7 +33,7 @@ struct ShownObject {
     ShownPart part = ShownPart::object;
 };
 
-inline constexpr double kHalfAngle = kFieldOfView / 2;
+inline constexpr double kHalfAngle = kFieldOfView / 2;  ///< of a picture, without --height
 
 /// --eye, --target, --height
 struct ShownCamera {
