@@ -1,9 +1,15 @@
 #!/usr/bin/env bash
-# Runs fuzz targets for SECONDS_PER_TARGET (default 60) each from their seeds, one on each processor at a time: those named in FUZZ_TARGETS
-# ("tiff zarr"; default: all). New inputs go to build/fuzz/corpus, what was printed to build/fuzz/NAME.log, an input that crashes, leaks,
-# takes 2 GiB or 20 s to build/fuzz/crashes: add it to tests/fuzz/corpus once it is mended.
+# Runs fuzz targets from their seeds for SECONDS_PER_TARGET (default 60) each, counted in time of a processor so that a busy machine runs as
+# many inputs as an idle one, one on each processor at a time: those named in FUZZ_TARGETS ("tiff zarr"; default: all). New inputs go to
+# build/fuzz/corpus, what was printed to build/fuzz/NAME.log, an input that crashes, leaks, takes 2 GiB or 20 s to build/fuzz/crashes: add it
+# to tests/fuzz/corpus once it is mended. FUZZ_RECORD=FILE appends a line for each target to a table (tests/fuzz/hours.tsv).
 set -euo pipefail
 cd "$(dirname "$0")/.."
+
+# The seconds of a processor that a process has taken; none once it has ended.
+processor_seconds() {
+    awk '{ print int(($14 + $15) / ticks) }' ticks="$(getconf CLK_TCK)" "/proc/$1/stat" 2>/dev/null || true
+}
 
 # Runs one target; prints a line for it.
 run_target() {
@@ -12,14 +18,25 @@ run_target() {
     mkdir -p "${folders[0]}"
     if [[ -d tests/fuzz/corpus/$name ]]; then folders+=(tests/fuzz/corpus/"$name"); fi
     if [[ -f $words ]]; then options+=(-dict="$words"); fi
-    local TIMEFORMAT=%U inputs coverage
-    {
-        time "$program" "${options[@]}" -max_total_time="$seconds" -rss_limit_mb=2048 -timeout=20 -print_final_stats=1 \
-            -artifact_prefix=build/fuzz/crashes/"$name"- "${folders[@]}" > "$log" 2>&1
-    } 2> "$log.processor" || result="FAILED: $log"
+    "$program" "${options[@]}" -rss_limit_mb=2048 -timeout=20 -print_final_stats=1 -artifact_prefix=build/fuzz/crashes/"$name"- \
+        "${folders[@]}" > "$log" 2>&1 &
+    local process=$! taken=0 now inputs coverage
+    while now=$(processor_seconds "$process") && [[ -n $now ]]; do
+        taken=$now
+        if ((taken >= seconds)); then
+            kill -USR1 "$process" 2>/dev/null || true  # libFuzzer prints its figures and exits with 0
+            break
+        fi
+        sleep 1
+    done
+    wait "$process" || result="FAILED: $log"
     inputs=$(sed -n 's/^stat::number_of_executed_units: *//p' "$log" | tail -n 1)
     coverage=$(grep -o 'cov: [0-9]*' "$log" | tail -n 1 || true)
-    printf '%-14s %8s s of processor %12s inputs  %10s  %s\n' "$name" "$(tail -n 1 "$log.processor")" "${inputs:-0}" "${coverage:-}" "$result"
+    printf '%-14s %8s s of a processor %12s inputs  %10s  %s\n' "$name" "$taken" "${inputs:-0}" "${coverage:-}" "$result"
+    if [[ -n ${FUZZ_RECORD:-} ]]; then
+        printf '%s\t%s\t%s\t%s\t%s\t%s\t%s\n' "$name" "$(date -u +%F)" "$(git rev-parse --short=8 HEAD)" "$taken" "${inputs:-0}" \
+            "${coverage#cov: }" "${result%%:*}" >> "$FUZZ_RECORD"
+    fi
     [[ $result == "no finding" ]]
 }
 
@@ -28,22 +45,24 @@ if [[ ${1:-} == --target ]]; then
     exit
 fi
 scripts/bootstrap.sh fuzz
-scripts/build.sh fuzz
-mkdir -p build/fuzz/crashes
-targets=${FUZZ_TARGETS:-$(find build/fuzz/tests/fuzz -maxdepth 1 -name '*_fuzz' -type f -executable -printf '%f\n' | sed 's/_fuzz$//' | sort)}
-for name in $targets; do
-    if [[ ! -x build/fuzz/tests/fuzz/${name}_fuzz ]]; then
+read -r -a targets <<< "${FUZZ_TARGETS:-}"
+for name in "${targets[@]}"; do
+    if [[ ! -f tests/fuzz/${name}_fuzz.cpp ]]; then
         echo "fuzz: there is no target '$name': tests/fuzz has NAME_fuzz.cpp for each" >&2
         exit 2
     fi
 done
-if [[ -z $targets ]]; then
+scripts/build.sh fuzz "${targets[@]/%/_fuzz}"
+mkdir -p build/fuzz/crashes
+if [[ ${#targets[@]} == 0 ]]; then
+    mapfile -t targets < <(find build/fuzz/tests/fuzz -maxdepth 1 -name '*_fuzz' -type f -executable -printf '%f\n' | sed 's/_fuzz$//' | sort)
+fi
+if [[ ${#targets[@]} == 0 ]]; then
     echo "fuzz: no target was built" >&2
     exit 1
 fi
-# shellcheck disable=SC2086 # names
-if ! printf '%s\n' $targets | xargs -P "$(nproc)" -I NAME "$0" --target NAME "${SECONDS_PER_TARGET:-60}"; then
+if ! printf '%s\n' "${targets[@]}" | xargs -P "$(nproc)" -I NAME "$0" --target NAME "${SECONDS_PER_TARGET:-60}"; then
     echo "fuzz: inputs that fail are in build/fuzz/crashes" >&2
     exit 1
 fi
-echo "fuzz: $(wc -w <<< "$targets") targets, no finding"
+echo "fuzz: ${#targets[@]} targets, no finding"
