@@ -24,7 +24,7 @@ def record(program, store, volume, field, tau, arguments):
     return {"volume": volume, "tau": round(tau, 5), "active, %": field.percent(field.active_cells(tau)),
             "triangles": int(of["exact_triangles"]), "of the front": int(of["triangles"]),
             "front / exact, %": 100 * of["triangles"] / max(of["exact_triangles"], 1),
-            "exact, s": of["exact"], "front, s": of["front"], "step, s": of["step"], "exact / step": of["exact"] / of["step"]}
+            "classified, MB": of["classified_bytes"] / 1e6, "reading, s": of["reading"], "exact, s": of["exact"], "front, s": of["front"], "step, s": of["step"], "exact / step": of["exact"] / of["step"]}
 
 
 def main():

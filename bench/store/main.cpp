@@ -13,6 +13,7 @@
 //   again  the same query once more                          cold   opening and first query, the file's pages dropped before
 //   copy   as many samples as that query needs, uncoded, from pages of the store that the system holds into new memory, in as many reads,
 //          on one thread: what is left of reading if decoding and checking cost nothing
+//   reading  so many samples as are classified, from memory, nothing else
 //   exact  the whole surface, samples there                  front  the same as an octree front, of a query without a step before
 //   step   from the isovalue before to this one              fresh  the query at this one of a store that holds no bricks
 // compare_vtk.py runs all this beside VTK's Flying Edges on the same volume.
@@ -26,14 +27,17 @@
 #include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <numeric>
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "cold.h"
 #include "command_line.h"
 #include "decoding.h"
+#include "field/brick_grid.h"
 #include "memory.h"
 #include "phase_clock.h"
 #include "volumes.h"
@@ -201,6 +205,28 @@ ordered_json measure_steps(const Arguments& arguments) {
     return result;
 }
 
+/// Reads memory once, each thread its part, and does nothing with it: no classification of so many samples takes less time.
+double reading(const std::vector<std::uint64_t>& words, int threads) {
+    const std::size_t parts = static_cast<std::size_t>(std::max(threads, 1));
+    std::vector<std::uint64_t> sums(parts);
+    const double seconds = seconds_of([&] {
+        std::vector<std::jthread> workers;
+        for (std::size_t part = 0; part < parts; ++part) {
+            workers.emplace_back([&, part] {
+                const auto begin = words.begin() + static_cast<std::ptrdiff_t>(words.size() * part / parts);
+                sums[part] = std::reduce(begin, words.begin() + static_cast<std::ptrdiff_t>(words.size() * (part + 1) / parts));
+            });
+        }
+    });
+    if (std::reduce(sums.begin(), sums.end()) == 0) throw std::runtime_error("the words add up to nothing");
+    return seconds;
+}
+
+/// The samples of the bricks that a surface divides, at least.
+std::int64_t bytes_classified(const Atlas& atlas, double tau) {
+    return atlas.preview(tau).bricks.min * isoatlas::kBrickSize.product() * static_cast<std::int64_t>(isoatlas::size_of(atlas.info().type));
+}
+
 /// Three steps as above, then back to the first isovalue, again and again: samples are present from the first round on.
 ordered_json measure_fronts(const Arguments& arguments) {
     const isoatlas::SurfaceOptions options = without_ids();
@@ -209,6 +235,9 @@ ordered_json measure_fronts(const Arguments& arguments) {
     isoatlas::Navigator navigator(atlas, options);
     const double step = step_from(arguments.tau(), atlas);
     ordered_json result;
+    const std::int64_t bytes = bytes_classified(atlas, arguments.tau());
+    const std::vector<std::uint64_t> samples(static_cast<std::size_t>(bytes / 8 + 1), 1);
+    result["classified_bytes"].push_back(bytes);
     for (int i = -4; i < arguments.repeats; ++i) {
         const double tau = arguments.tau() + step * std::abs(i % 4);
         isoatlas::Surface surface;
@@ -219,6 +248,7 @@ ordered_json measure_fronts(const Arguments& arguments) {
         if (stepped.surface.triangles != coarse.surface.triangles || stepped.surface.points != coarse.surface.points)
             throw std::runtime_error("a front is another one after a step");
         if (i < 0) continue;
+        result["reading"].push_back(reading(samples, arguments.context.threads));
         result["exact"].push_back(exact), result["front"].push_back(fresh), result["step"].push_back(by_step);
         result["exact_triangles"].push_back(surface.triangles.size()), result["triangles"].push_back(coarse.surface.triangles.size());
     }

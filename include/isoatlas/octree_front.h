@@ -42,7 +42,7 @@ struct FrontSurface {
 /// how: of extract(); objects and contours are chosen, and points have ids, as there. Throws Error: usage (options out of range; tau not
 /// finite; Boundary::open), unsupported (a 2D image), otherwise as extract(). The same bytes for any number of threads. Cost: O(volume)
 /// scan to classify, some nanoseconds a cell near the surface, plus O(triangles of the front); with a deviation some 100 ns for each active
-/// cell and level. Memory: 8 bits a voxel.
+/// cell and level. Memory: 2 bits a voxel, some 300 bytes a block.
 [[nodiscard]] FrontSurface extract_front(const Volume& volume, double tau, const FrontOptions& options = {}, const ExtractOptions& how = {},
                                          const Context& context = {});
 

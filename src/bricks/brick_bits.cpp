@@ -42,6 +42,24 @@ std::uint16_t bits_of_row(const T* samples, T min) {
 }
 #endif
 
+/// One for each row of a brick, 0 or 1; bytes, so that compilers take vectors.
+using RowFlags = std::array<std::uint8_t, static_cast<std::size_t>(kBrickRows)>;
+
+/// Layers along y, along z, with a row that has a flag.
+std::array<std::uint16_t, 2> layers_of(const RowFlags& flags) {
+    std::uint64_t rows = 0;  // of all slices, a byte each
+    std::array<std::uint16_t, 2> layers{};
+    for (std::int64_t z = 0; z < kBrickSize[2]; ++z) {
+        std::uint64_t slice;
+        static_assert(kSide == sizeof slice);
+        std::memcpy(&slice, flags.data() + kSide * z, sizeof slice);
+        rows |= slice;
+        layers[1] |= static_cast<std::uint16_t>((slice != 0) << z);
+    }
+    for (std::int64_t y = 0; y < kSide; ++y) layers[0] |= static_cast<std::uint16_t>((rows >> 8 * y & 1) << y);
+    return layers;
+}
+
 }  // namespace
 
 template <class T>
@@ -82,22 +100,27 @@ void put_brick(const BrickBits& bits, const Box& box, HighBits& high) {
 
 BrickFaces sides_of(const BrickBits& bits, const Index3& size) {
     const auto whole = static_cast<std::uint16_t>(0xffff >> (kRow - size[0]));
-    const auto behind = [&size](std::size_t axis) { return static_cast<std::uint16_t>(0xff & ~(0xff >> (kSide - size[axis]))); };
-    BrickFaces sides;
-    sides.low[1] = behind(1), sides.low[2] = behind(2);
-    std::uint16_t all = 0xffff;
-    for (std::int64_t z = 0; z < size[2]; ++z) {
-        for (std::int64_t y = 0; y < size[1]; ++y) {
-            const std::uint16_t row = bits[static_cast<std::size_t>(y + kSide * z)];
-            const int has_high = row != 0, has_low = row != whole;
-            sides.high[0] |= row;
-            all &= row;
-            sides.high[1] |= static_cast<std::uint16_t>(has_high << y), sides.low[1] |= static_cast<std::uint16_t>(has_low << y);
-            sides.high[2] |= static_cast<std::uint16_t>(has_high << z), sides.low[2] |= static_cast<std::uint16_t>(has_low << z);
+    RowFlags has_high, has_low;
+    std::uint16_t any = 0, all = 0xffff;
+    for (std::size_t row = 0; row < bits.size(); ++row) {
+        any |= bits[row];
+        has_high[row] = bits[row] != 0, has_low[row] = bits[row] != whole;
+    }
+    for (std::int64_t z = 0; z < kBrickSize[2]; ++z) {
+        for (std::int64_t y = 0; y < kSide; ++y) {
+            const auto row = static_cast<std::size_t>(y + kSide * z);
+            if (y < size[1] && z < size[2])
+                all &= bits[row];
+            else
+                has_low[row] = 0;
         }
     }
-    sides.low[0] = static_cast<std::uint16_t>(~all);
-    return sides;
+    const auto behind = [&size](std::size_t axis) { return static_cast<std::uint16_t>(0xff & ~(0xff >> (kSide - size[axis]))); };
+    const auto [high_y, high_z] = layers_of(has_high);
+    const auto [low_y, low_z] = layers_of(has_low);
+    return {
+        {any, high_y, high_z},
+        {static_cast<std::uint16_t>(~all), static_cast<std::uint16_t>(low_y | behind(1)), static_cast<std::uint16_t>(low_z | behind(2))}};
 }
 
 #define ISOATLAS_INSTANTIATE(T) template BrickBits bits_of_brick<T>(const T*, const Index3&, T);

@@ -35,6 +35,19 @@ bool meets_in_cell(const HighBits& high, const Box& box, bool own, const Index3&
     return false;
 }
 
+/// Towards the 26 neighbours of a brick, first those that share a face with it: most often one of them has an answer.
+constexpr std::array<Index3, 26> kDirections = [] {
+    std::array<Index3, 26> directions{};
+    std::size_t count = 0;
+    for (int axes = 1; axes <= 3; ++axes) {
+        for (std::int64_t i = 0; i < 27; ++i) {
+            const Index3 d{i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1};
+            if ((d[0] != 0) + (d[1] != 0) + (d[2] != 0) == axes) directions[count++] = d;
+        }
+    }
+    return directions;
+}();
+
 /// Layers of a brick, as bits, within `steps` of its neighbour in direction -d.
 std::uint16_t near_layers(std::size_t axis, std::int64_t d, int steps) {
     const int first = (1 << steps) - 1;
@@ -58,16 +71,15 @@ bool touches_surface(const HighBits& high, const LevelBricks& bricks, IdSpan<Bri
     const BrickClass own = bricks.classes[brick];
     const Index3 place = grid.place(brick);
     const Box box = grid.box(brick);
+    const auto is_at_border = [&](std::size_t axis) { return place[axis] == 0 || place[axis] + 1 == grid.size[axis]; };
+    const bool has_outside = is_at_border(0) || is_at_border(1) || is_at_border(2);
     const auto is_beside = [&](const Index3& d) {
-        Index3 at;
-        int axes = 0;
-        for (std::size_t axis = 0; axis < 3; ++axis) {
-            at[axis] = place[axis] + d[axis];
-            axes += d[axis] != 0;
-            if (at[axis] < 0 || at[axis] >= grid.size[axis]) return own == BrickClass::high;  // outside is Low
+        for (std::size_t axis = 0; has_outside && axis < 3; ++axis) {
+            if (place[axis] + d[axis] < 0 || place[axis] + d[axis] >= grid.size[axis]) return own == BrickClass::high;  // outside is Low
         }
-        const BrickId other = grid.brick(at);
+        const BrickId other(brick.number() + grid.brick(d).number());
         if (bricks.classes[other] != BrickClass::divided) return bricks.classes[other] != own;
+        const int axes = (d[0] != 0) + (d[1] != 0) + (d[2] != 0);
         const auto& layers = own == BrickClass::high ? sides[other].low : sides[other].high;
         for (std::size_t axis = 0; axis < 3; ++axis) {
             const int steps = axes == 1 ? static_cast<int>(kSurroundings) : 1;
@@ -75,15 +87,8 @@ bool touches_surface(const HighBits& high, const LevelBricks& bricks, IdSpan<Bri
         }
         return axes == 1 || meets_in_cell(high, box, own == BrickClass::high, d);
     };
-    const std::int64_t flat = grid.extent.rank == 2 ? 0 : 1;
-    for (std::int64_t z = -flat; z <= flat; ++z) {
-        for (std::int64_t y = -1; y <= 1; ++y) {
-            for (std::int64_t x = -1; x <= 1; ++x) {
-                if ((x != 0 || y != 0 || z != 0) && is_beside({x, y, z})) return true;
-            }
-        }
-    }
-    return false;
+    const bool is_flat = grid.extent.rank == 2;
+    return std::ranges::any_of(kDirections, [&](const Index3& d) { return !(is_flat && d[2] != 0) && is_beside(d); });
 }
 
 std::vector<BrickId> beside_surface(const HighBits& high, const LevelBricks& bricks, IdSpan<BrickId, const BrickFaces> sides, int threads) {

@@ -36,7 +36,9 @@ public:
     [[nodiscard]] StoredLevel classify(double tau, const BrickFlags& kept, const Context& context, LevelQuery& query) override {
         require_isovalue(tau);
         const std::lock_guard lock(mutex_);
-        return classify_part(BrickPart(grid_), kept, threshold_for<T>(tau), context, query).level;
+        const Threshold<T> threshold = threshold_for<T>(tau);
+        return classify_part(BrickPart(grid_), bricks_of(BrickPart(grid_), threshold, context.threads, kept), threshold, context, query)
+            .level;
     }
 
     [[nodiscard]] ObjectBricks bricks_of_objects(double tau, const std::vector<std::int64_t>& voxels, const Context& context,
@@ -62,12 +64,12 @@ public:
         const std::lock_guard lock(mutex_);
         const Threshold<T> threshold = threshold_for<T>(tau);
         const std::optional<double> before = std::exchange(kept.tau, tau);
-        if (!kept.level) return classify_anew(kept, threshold, context, query);
         LevelBricks bricks = bricks_of(BrickPart(grid_), threshold, context.threads);
+        if (!kept.level) return classify_anew(kept, std::move(bricks), threshold, context, query);
         const std::vector<BrickId> divided = divided_bricks(BrickPart(grid_), bricks);
         const BrickFlags changed = bricks_between(threshold_for<T>(*before), threshold);
         const std::int64_t changes = std::ranges::count(changed.items(), std::uint8_t{1});
-        if (changes > std::ssize(divided)) return classify_anew(kept, threshold, context, query);  // less work than each change
+        if (changes > std::ssize(divided)) return classify_anew(kept, std::move(bricks), threshold, context, query);  // less work
         auto& high = kept.level->high;
         high.set_candidates(bricks);
         kept.level->bricks = std::move(bricks);
@@ -88,7 +90,7 @@ public:
         const std::lock_guard lock(mutex_);
         const Threshold<T> threshold = threshold_for<T>(tau);
         const BrickPart part(grid_, bricks);
-        Classified classified = classify_part(part, kept, threshold, context, own);
+        Classified classified = classify_part(part, bricks_of(part, threshold, context.threads, kept), threshold, context, own);
         StoredWindow result{info_, {info_.extent, part.origin}, {}, std::move(classified.level)};
         result.info.extent = part.grid.extent;
         add_extremes(part, 1, result.level.bricks);
@@ -242,11 +244,9 @@ private:
         return true;
     }
 
-    /// kept: of the whole grid; all other bricks count as Low. Empty: none does.
-    Classified classify_part(const BrickPart& part, const BrickFlags& kept, const Threshold<T>& threshold, const Context& context,
+    /// around: the bricks of the part. What it calls Low counts as Low.
+    Classified classify_part(const BrickPart& part, LevelBricks around, const Threshold<T>& threshold, const Context& context,
                              LevelQuery& query) {
-        LevelBricks around = bricks_of(part, threshold, context.threads);
-        if (!kept.empty()) make_others_low(part, kept, around.classes);
         HighBits bits(around);
         Classified result{
             {std::move(bits), std::move(around)}, IdArray<BrickId, BrickFaces>(static_cast<std::size_t>(part.grid.count())), {}};
@@ -261,9 +261,10 @@ private:
         return result;
     }
 
-    std::int64_t classify_anew(KeptLevel& kept, const Threshold<T>& threshold, const Context& context, LevelQuery& query) {
+    std::int64_t classify_anew(KeptLevel& kept, LevelBricks bricks, const Threshold<T>& threshold, const Context& context,
+                               LevelQuery& query) {
         kept.level.reset();  // its memory is used again
-        Classified all = classify_part(BrickPart(grid_), BrickFlags(), threshold, context, query);
+        Classified all = classify_part(BrickPart(grid_), std::move(bricks), threshold, context, query);
         kept.beside = BrickFlags(all.level.bricks.classes.size(), 0);
         for (const BrickId b : all.needed) kept.beside[b] = all.level.bricks.classes[b] != BrickClass::divided;
         kept.level = std::move(all.level);
@@ -306,10 +307,12 @@ private:
         });
     }
 
-    /// Classification by the ranges of the bricks alone.
-    [[nodiscard]] LevelBricks bricks_of(const BrickPart& part, const Threshold<T>& threshold, int threads) const {
+    /// Classification by the ranges of the bricks alone. kept: of the whole grid; all other bricks count as Low. Empty: none does.
+    [[nodiscard]] LevelBricks bricks_of(const BrickPart& part, const Threshold<T>& threshold, int threads,
+                                        const BrickFlags& kept = {}) const {
         LevelBricks bricks{part.grid, IdArray<BrickId, BrickClass>(static_cast<std::size_t>(part.grid.count())), {}, {}};
         for_bricks(part.grid, threads, [&](BrickId b) { bricks.classes[b] = class_of(part.number(b), threshold); });
+        if (!kept.empty()) make_others_low(part, kept, bricks.classes);
         return bricks;
     }
     void add_extremes(const BrickPart& part, int threads, LevelBricks& bricks) const {
@@ -350,7 +353,8 @@ private:
             const Box box = grid.box(brick(0));
             std::vector<std::uint64_t> whole(static_cast<std::size_t>(high.words() + 1));
             for (std::int64_t i = 0; i < grid.size[0]; ++i) {
-                if (classes[brick(i)] == BrickClass::high) put_bits(whole.data(), i * kBrickRow + 1, ones(grid, i));
+                const std::uint64_t ones = 0xffff >> (kBrickRow - grid.length(0, i));
+                if (classes[brick(i)] == BrickClass::high) put_bits(whole.data(), i * kBrickRow + 1, ones);
             }
             for (std::int64_t z = box.begin[2]; z < box.end[2]; ++z) {
                 for (std::int64_t y = box.begin[1]; y < box.end[1]; ++y) std::copy(whole.begin(), whole.end(), high.row(y, z));
@@ -362,11 +366,6 @@ private:
                 sides[b] = fill_brick(high, grid.box(b), part.number(b), min);
             }
         });
-    }
-
-    /// A bit for every sample of a row of brick i of an axis.
-    static std::uint64_t ones(const BrickGrid& grid, std::int64_t i) {
-        return 0xffff >> (kBrickRow - std::min(kBrickRow, grid.extent.size[0] - i * kBrickRow));
     }
 
     void prefetch_brick(BrickId brick) {

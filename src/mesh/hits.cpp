@@ -69,6 +69,38 @@ void HitWriter<T>::write(std::int64_t bundle, const Layout& layout, const RowGro
 }
 
 template <class T>
+void HitWriter<T>::write_lines(std::int64_t y, std::int64_t z, std::span<const HitLine> lines) const {
+    const std::int64_t first_y = std::max<std::int64_t>(y, 0), first_z = std::max<std::int64_t>(z, 0);
+    Work work{BundleSamples<T, Real>(grid_, map_), position(0, first_y, first_z), {}, {}};
+    work.samples.move_to(first_y, first_z);
+    for (const HitLine& line : lines) write_line(line, line.y - first_y, line.z - first_z, work);
+    for (std::size_t axis = 0; axis < 3; ++axis) flush(axis, work);
+}
+
+template <class T>
+void HitWriter<T>::write_line(const HitLine& line, std::int64_t y, std::int64_t z, Work& work) const {
+    const std::size_t axis = line.axis;
+    const std::int64_t last = grid_.extent.size[0];  // position of the last voxel
+    HitBatch& batch = work.batch[axis];
+    std::int64_t point = line.point;
+    for (const std::int32_t p : line.positions) {
+        Index3 from{p - 1, line.y, line.z}, to = from;
+        ++to[axis];
+        if (from[axis] < 0 || to[axis] == grid_.extent.size[axis]) {
+            const bool is_behind = from[axis] >= 0;
+            const Index3& voxel = is_behind ? from : to;
+            write_border(position(voxel[0], voxel[1], voxel[2]), static_cast<int>(axis), is_behind ? 1 : -1, point++);
+            continue;
+        }
+        if (batch.is_full()) flush(axis, work);
+        batch.is_at_end = batch.is_at_end || p == 1 || p >= last - 1;
+        const std::size_t i = batch.count++;
+        batch.from[0][i] = p - 1, batch.from[1][i] = static_cast<std::int32_t>(y), batch.from[2][i] = static_cast<std::int32_t>(z);
+        batch.point[i] = point++;
+    }
+}
+
+template <class T>
 void HitWriter<T>::write_slice(std::vector<Row>& rows, Work& work) const {
     for (std::int64_t i = 0; i < rows.front().hits.candidates.size; ++i) {
         std::uint64_t candidates = 0;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <type_traits>
 #include <vector>
 
@@ -14,6 +15,14 @@
 
 namespace isoatlas {
 
+/// Hits of a row on edges along one axis.
+struct HitLine {
+    std::int64_t y, z;
+    std::size_t axis;
+    std::span<const std::int32_t> positions;  ///< ascending
+    std::int64_t point;                       ///< of the first one; the others follow
+};
+
 /// Writes points (and normals, unless empty) of hits at their places, by bundles of rows (mesh/bundle_samples.h): those whose samples lie
 /// near each other, 64 positions of each at a time.
 template <class T>
@@ -23,6 +32,8 @@ public:
     [[nodiscard]] std::int64_t bundles() const;
     /// The hits on all edges that begin in the rows of a bundle, and on those towards the first voxels of its rows.
     void write(std::int64_t bundle, const Layout& layout, const RowGroups& groups) const;
+    /// The hits of some lines, of rows that lie less than kBundleSize behind (y, z); outside of the grid those in front of it.
+    void write_lines(std::int64_t y, std::int64_t z, std::span<const HitLine> lines) const;
     /// The hits on edges that begin in a row outside, in front of the grid.
     void write_outside(std::int64_t y, std::int64_t z, const RowOffsets& place) const;
 
@@ -54,6 +65,8 @@ private:
     };
     void write_slice(std::vector<Row>& rows, Work& work) const;
     void write_word(std::int64_t w, Row& row, Work& work) const;
+    /// y, z: of the line, in the bundle.
+    void write_line(const HitLine& line, std::int64_t y, std::int64_t z, Work& work) const;
     /// Computes and writes the pending hits along an axis.
     void flush(std::size_t axis, Work& work) const;
     /// From differences of samples to normals.

@@ -30,16 +30,14 @@
 #include "base/big_vector.h"
 #include "isoatlas/surface.h"
 #include "levelset/active_cells.h"
-#include "mesh/hit_mask.h"
 
 namespace isoatlas {
 
 /// The domain of a mesh: bits, and the cells and rows that belong to the surface.
 struct MeshDomain {
     const HighBits& high;
-    const HitMask* only = nullptr;  ///< the hits that are points; null: all
-    CellWindow cells;               ///< of every row
-    std::int64_t y_begin, y_end;    ///< cell rows: y_begin <= y < y_end
+    CellWindow cells;             ///< of every row
+    std::int64_t y_begin, y_end;  ///< cell rows: y_begin <= y < y_end
     std::int64_t z_begin, z_end;
 
     MeshDomain(const HighBits& bits, Boundary boundary);
@@ -75,7 +73,6 @@ inline void mark_word(std::uint64_t& words, std::int64_t w) { words |= std::uint
 /// The edges of a row that are hit, 64 positions at a time.
 struct RowHits {
     const std::uint64_t *row, *next_y, *next_z;
-    std::array<const std::uint64_t*, 3> only{};  ///< by axis: the hits that are points; null: all
     WordSet candidates;
     CellWindow window;
     bool y_edges, z_edges;
@@ -87,20 +84,15 @@ struct RowHits {
           candidates(domain.high.candidates(y, z)),
           window(domain.cells),
           y_edges(domain.has_next_y(y)),
-          z_edges(domain.has_next_z(z)) {
-        if (domain.only != nullptr) only = domain.only->rows(domain.row_number(y, z));
-    }
+          z_edges(domain.has_next_z(z)) {}
     /// Of a row that has been counted.
     RowHits(const MeshDomain& domain, std::int64_t y, std::int64_t z, const RowOffsets& place) : RowHits(domain, y, z) {
         candidates = words_of(domain.high, place.hit_words, candidates);
     }
     /// Bit p: the edge between the positions p and p + 1 is hit.
-    [[nodiscard]] std::uint64_t x(std::int64_t w) const { return (row[w] ^ bits_after(row, w)) & window.mask(w) & chosen(0, w); }
-    [[nodiscard]] std::uint64_t y(std::int64_t w) const { return y_edges ? (row[w] ^ next_y[w]) & chosen(1, w) : 0; }
-    [[nodiscard]] std::uint64_t z(std::int64_t w) const { return z_edges ? (row[w] ^ next_z[w]) & chosen(2, w) : 0; }
-    [[nodiscard]] std::uint64_t chosen(std::size_t axis, std::int64_t w) const {
-        return only[axis] == nullptr ? ~std::uint64_t{0} : only[axis][w];
-    }
+    [[nodiscard]] std::uint64_t x(std::int64_t w) const { return (row[w] ^ bits_after(row, w)) & window.mask(w); }
+    [[nodiscard]] std::uint64_t y(std::int64_t w) const { return y_edges ? row[w] ^ next_y[w] : 0; }
+    [[nodiscard]] std::uint64_t z(std::int64_t w) const { return z_edges ? row[w] ^ next_z[w] : 0; }
 };
 
 /// Groups of adjacent rows, those of a brick, which of them have hits or active cells, and what was found in their cells.

@@ -58,15 +58,20 @@ ContourNumber contour_with_id(const std::unordered_map<std::int64_t, ContourNumb
                  .next = "list the objects at this isovalue with their contours"});
 }
 
+/// The contour of a hit between two components.
+std::int64_t contour_of(const Components& components, bool first_is_high, std::int32_t first, std::int32_t second) {
+    const ObjectNumber object(first_is_high ? first : second);
+    const LowNumber low(first_is_high ? second : first);
+    return components.contour_between(object, low).number();
+}
+
 }  // namespace
 
 void write_contours(const Components& components, const MeshDomain& domain, std::int64_t y, std::int64_t z, const RowOffsets& place,
                     Surface& surface) {
     const RowHits hits(domain, y, z);
     const auto write = [&](bool first_is_high, std::int32_t first, std::int32_t second, std::int64_t& point) {
-        const ObjectNumber object(first_is_high ? first : second);
-        const LowNumber low(first_is_high ? second : first);
-        surface.contour[point++] = components.contour_between(object, low).number();
+        surface.contour[point++] = contour_of(components, first_is_high, first, second);
     };
     ComponentCursor here(components, y, z), here_y = here, here_z = here, next_y(components, y + 1, z), next_z(components, y, z + 1);
     std::int64_t x_point = place.point, y_point = place.first_y(), z_point = place.first_z();
@@ -84,6 +89,16 @@ void write_contours(const Components& components, const MeshDomain& domain, std:
         for_bits(hits.y(w), [&](std::int64_t p, bool high) { write(high, here_y.at(p), next_y.at(p), y_point); });
         for_bits(hits.z(w), [&](std::int64_t p, bool high) { write(high, here_z.at(p), next_z.at(p), z_point); });
     });
+}
+
+void write_contours(const Components& components, const HighBits& high, const HitLine& line, Surface& surface) {
+    const std::uint64_t* const row = high.row(line.y, line.z);
+    ComponentCursor first(components, line.y, line.z), second(components, line.y + (line.axis == 1), line.z + (line.axis == 2));
+    std::int64_t point = line.point;
+    for (const std::int32_t p : line.positions) {
+        const bool is_high = (row[p / 64] >> p % 64 & 1) != 0;
+        surface.contour[point++] = contour_of(components, is_high, first.at(p), second.at(p + (line.axis == 0)));
+    }
 }
 
 IdArray<ContourNumber, std::uint8_t> chosen_contours(const TauLevel& level, const Components& components, const SurfaceOptions& options) {

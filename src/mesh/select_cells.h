@@ -3,6 +3,7 @@
 #pragma once
 
 #include "levelset/components.h"
+#include "mesh/hits.h"
 #include "mesh/layout.h"
 
 namespace isoatlas {
@@ -10,6 +11,8 @@ namespace isoatlas {
 /// Writes the contour number (of Components) of the hits of row (y, z) to Surface::contour.
 void write_contours(const Components& components, const MeshDomain& domain, std::int64_t y, std::int64_t z, const RowOffsets& place,
                     Surface& surface);
+/// The same for the hits of a line.
+void write_contours(const Components& components, const HighBits& high, const HitLine& line, Surface& surface);
 
 /// The contours that the options select, as flags; empty: all of them.
 /// Throws Error: usage (not a voxel), not_found (a Low voxel, no such contour at tau).

@@ -15,10 +15,12 @@
 // which tests corners alone and only for dual surfaces.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <vector>
 
+#include "base/prefetch.h"
 #include "isoatlas/context.h"
 #include "levelset/high_bits.h"
 #include "octree_front/bit_grid.h"
@@ -37,11 +39,11 @@ public:
     [[nodiscard]] int max_level() const { return static_cast<int>(levels_.size()) - 1; }
     /// How many blocks cover all cells.
     [[nodiscard]] const Index3& blocks(int level) const { return levels_[static_cast<std::size_t>(level)].size; }
-    [[nodiscard]] bool is_high(const Index3& position) const {
-        if (position[0] >= high_.extent().size[0] + 2) return false;
-        return (high_.row(position[1] - 1, position[2] - 1)[position[0] / 64] >> position[0] % 64 & 1) != 0;
+    /// Vertex: of a block of the level, its first corner.
+    [[nodiscard]] bool is_high(int level, std::int64_t x, std::int64_t y, std::int64_t z) const {
+        return (vertices(level, x / 64, y, z) >> x % 64 & 1) != 0;
     }
-    /// Bit i: the vertex i behind this one along x is High; at least 63 of them. Vertex: of a block of the level, its first corner.
+    /// Bit i: the vertex i behind this one along x is High; at least 63 of them.
     [[nodiscard]] std::uint64_t vertex_bits(int level, const Index3& vertex) const {
         const std::int64_t w = vertex[0] / 64, bit = vertex[0] % 64;
         const std::uint64_t here = vertices(level, w, vertex[1], vertex[2]) >> bit;
@@ -50,6 +52,13 @@ public:
     /// Level 1 or more. Also true of a block whose vertices are of one class.
     [[nodiscard]] bool is_coalescible(int level, const Index3& block) const {
         return levels_[static_cast<std::size_t>(level)].coalescible[block];
+    }
+    /// Prefetches the classes of the samples of a row of blocks, y and z.
+    void prefetch_samples(int level, std::int64_t y, std::int64_t z) const {
+        const std::int64_t width = std::int64_t{1} << level, first = std::max<std::int64_t>(y * width - 1, 0);
+        const std::int64_t last = std::min((y + 1) * width, high_.extent().size[1]) - 1;
+        for (std::int64_t i = z * width; i <= (z + 1) * width; ++i)
+            prefetch(high_.row(first, i - 1), high_.row(last, i - 1) + high_.words());
     }
     /// Bit c: corner c is High (field/cell.h).
     [[nodiscard]] int pattern(int level, const Index3& block) const;

@@ -13,8 +13,8 @@ void FrontLeaves::for_children(const FrontLeaf& parent, const Add& add) const {
     const Index3& size = blocks_.blocks(parent.level - 1);
     const std::array<std::uint8_t, 8> patterns = blocks_.child_patterns(parent.level, parent.block);
     for (int child = 0; child < 8; ++child) {
-        const FrontLeaf leaf = parent.child(child);
-        if (leaf.block[0] < size[0] && leaf.block[1] < size[1] && leaf.block[2] < size[2]) add(leaf, patterns[child]);
+        const FrontLeaf leaf = parent.child(child, patterns[child]);
+        if (leaf.block[0] < size[0] && leaf.block[1] < size[1] && leaf.block[2] < size[2]) add(leaf);
     }
 }
 
@@ -30,20 +30,17 @@ FrontLeaves::FrontLeaves(const CoalescibleBlocks& blocks, const MayStay& may_sta
 void FrontLeaves::find(std::int64_t row, const MayStay& may_stay) {
     std::vector<FrontLeaf> divided;
     std::vector<FrontLeaf>& leaves = leaves_[static_cast<std::size_t>(row)];
-    const auto look_at = [&](const FrontLeaf& block, int pattern) {
-        const bool is_uniform = pattern == 0 || pattern == 255;
-        if (block.level == 0) {
-            if (!is_uniform) leaves.push_back(block);
-        } else if (!blocks_.is_coalescible(block.level, block.block)) {
+    const auto look_at = [&](const FrontLeaf& block) {
+        if (block.level > 0 && !blocks_.is_coalescible(block.level, block.block)) {
             divided.push_back(block);
-        } else if (!is_uniform) {  // else all its vertices are of one class
-            (may_stay(block) ? leaves : divided).push_back(block);
+        } else if (!block.is_uniform()) {  // else all its vertices are of one class
+            (block.level == 0 || may_stay(block) ? leaves : divided).push_back(block);
         }
     };
     const int top = blocks_.max_level();
     for (std::int64_t x = 0; x < blocks_.blocks(top)[0]; ++x) {
-        const FrontLeaf first{{x, row % rows_y_, row / rows_y_}, top};
-        look_at(first, blocks_.pattern(top, first.block));
+        const Index3 first{x, row % rows_y_, row / rows_y_};
+        look_at({first, top, blocks_.pattern(top, first)});
         while (!divided.empty()) {
             const FrontLeaf block = divided.back();
             divided.pop_back();
@@ -66,8 +63,8 @@ std::int64_t FrontLeaves::divide(const std::function<bool(std::int64_t, std::siz
             }
             ++divided[static_cast<std::size_t>(row)];
             divided_[static_cast<std::size_t>(leaves[i].level)].set(leaves[i].block);
-            for_children(leaves[i], [&](const FrontLeaf& child, int pattern) {
-                if (pattern != 0 && pattern != 255) now.push_back(child);
+            for_children(leaves[i], [&](const FrontLeaf& child) {
+                if (!child.is_uniform()) now.push_back(child);
             });
         }
         leaves.swap(now);

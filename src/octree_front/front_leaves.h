@@ -17,11 +17,14 @@ namespace isoatlas {
 struct FrontLeaf {
     Index3 block;
     int level;
+    int pattern;  ///< bit c: corner c is High (field/cell.h)
     [[nodiscard]] std::int64_t width() const { return std::int64_t{1} << level; }
     /// 0 .. 7, x first.
-    [[nodiscard]] FrontLeaf child(int i) const {
-        return {{2 * block[0] + (i & 1), 2 * block[1] + (i >> 1 & 1), 2 * block[2] + (i >> 2)}, level - 1};
+    [[nodiscard]] FrontLeaf child(int i, int with_pattern) const {
+        return {{2 * block[0] + (i & 1), 2 * block[1] + (i >> 1 & 1), 2 * block[2] + (i >> 2)}, level - 1, with_pattern};
     }
+    /// Are all corners of one class?
+    [[nodiscard]] bool is_uniform() const { return pattern == 0 || pattern == 255; }
     /// Of its first corner (octree_front/coalescible_blocks.h).
     [[nodiscard]] Index3 position() const { return {block[0] << level, block[1] << level, block[2] << level}; }
 };
@@ -38,11 +41,9 @@ public:
     /// Rows of blocks of the greatest level, y first.
     [[nodiscard]] std::int64_t rows() const { return static_cast<std::int64_t>(leaves_.size()); }
     [[nodiscard]] const std::vector<FrontLeaf>& leaves(std::int64_t row) const { return leaves_[static_cast<std::size_t>(row)]; }
-    /// Does an edge of the grid whose first end is at `position` belong to the row? Of several rows that touch it, one does.
-    [[nodiscard]] bool owns(std::int64_t row, std::int64_t y, std::int64_t z) const {
-        return row == (y >> blocks_.max_level()) + rows_y_ * (z >> blocks_.max_level());
-    }
-    /// Is a block of level 1 or more divided among several leaves?
+    /// Prefetches the classes of the samples of a row.
+    void prefetch_samples(std::int64_t row) const { blocks_.prefetch_samples(blocks_.max_level(), row % rows_y_, row / rows_y_); }
+    /// Is a block of level 1 or more divided among several leaves? Not one outside.
     [[nodiscard]] bool is_divided(int level, const Index3& block) const { return divided_[static_cast<std::size_t>(level)][block]; }
     /// Divides the leaves of which must_divide(row, index) says so. Returns how many that were.
     std::int64_t divide(const std::function<bool(std::int64_t row, std::size_t index)>& must_divide, const Context& context);

@@ -1,6 +1,6 @@
 // FrontMesh: from leaves to points and triangles.
 //
-// Points are hits, in the order of the grid as those of a whole surface (mesh/layout.h), then the centres of fans that are no hits, then
+// Points are hits, in the order of octree_front/front_hits.h, then the centres of fans that are no hits, then
 // what cells add, both in the order of the leaves. A leaf of level 1 or more is a fan around its centre: a hit inside it, or else the mean
 // of its loop.
 #pragma once
@@ -12,6 +12,7 @@
 #include "levelset/tau_level.h"
 #include "mesh/cells.h"
 #include "mesh/hits.h"
+#include "octree_front/front_hits.h"
 #include "octree_front/leaf_loop.h"
 
 namespace isoatlas {
@@ -37,27 +38,22 @@ public:
     void write(const std::vector<RowFans>& fans, Surface& surface);
 
 private:
-    void mark_hits(std::int64_t row, const RowFans& fans);
-    void lay_out();
+    void count_row(std::int64_t row, const RowFans& fans);
     void write_row(std::int64_t row, const RowFans& fans, Surface& surface) const;
     void write_fan(std::span<const EdgeHit> loop, const EdgeHit& centre, std::int64_t& next_point, std::array<std::int64_t, 3>*& triangle,
                    Surface& surface) const;
-    void mark(std::int64_t row, const EdgeHit& hit);
-    [[nodiscard]] std::int64_t point_of(const EdgeHit& hit) const;
     [[nodiscard]] typename CellWriter<T>::State state_of(const FrontLeaf& leaf) const;
 
     const TauLevel& level_;
     SampleGrid<T> grid_;
     const FrontLeaves& leaves_;
     const Context& context_;
-    HitMask mask_;
+    FrontHits hits_;
     MeshDomain domain_;
     PhysicalMap map_;
     bool flip_;
     CellWriter<T> cells_;
-    RowGroups groups_;
-    Layout layout_;
-    std::vector<std::array<std::int64_t, 2>> first_;  ///< point beside hits, triangle of each row
+    std::vector<std::array<std::int64_t, 2>> first_;  ///< point beside hits, triangle of each row of blocks
     const SurfaceOptions& options_;
     const Components* components_;  ///< null: points have no contours
 };

@@ -101,8 +101,7 @@ void put_in_strips(std::span<unsigned> corners) {
     std::ranges::transform(strips, corners.begin(), [first = min](unsigned corner) { return corner + first; });
 }
 
-/// Triangles in strips, points in order of first use: neighbours have close indices, so both compress well.
-void put_in_order(std::vector<unsigned>& corners, std::vector<WirePoint>& points, const Context& context) {
+void put_all_in_strips(std::vector<unsigned>& corners, const Context& context) {
     const std::size_t parts = (corners.size() + kPart - 1) / kPart;
     const CallerLooks look(context);
     for_each_block(context.threads, static_cast<std::int64_t>(parts), [&](std::int64_t part) {
@@ -111,6 +110,10 @@ void put_in_order(std::vector<unsigned>& corners, std::vector<WirePoint>& points
         put_in_strips(std::span(corners).subspan(first, std::min(kPart, corners.size() - first)));
     });
     stop_if_cancelled(context);
+}
+
+/// Points in order of first use: neighbours have close indices, so that they compress well, and triangles too.
+void put_in_order(std::vector<unsigned>& corners, std::vector<WirePoint>& points) {
     std::vector<WirePoint> ordered(points.size());
     ordered.resize(
         meshopt_optimizeVertexFetch(ordered.data(), corners.data(), corners.size(), points.data(), points.size(), sizeof(WirePoint)));
@@ -173,7 +176,8 @@ WireMesh wire_mesh(const Surface& surface, const WireOptions& options, const Con
     mesh.coarse = options.max_triangles > 0 && surface.triangles.size() > static_cast<std::size_t>(options.max_triangles);
     stop_if_cancelled(context);
     if (mesh.coarse) corners = fewer(corners, points, static_cast<std::size_t>(options.max_triangles));
-    put_in_order(corners, points, context);
+    if (options.strips) put_all_in_strips(corners, context);
+    put_in_order(corners, points);
     if (options.distinct) mesh.without_area = part(points, corners);
     stop_if_cancelled(context);
     mesh.points = static_cast<std::int64_t>(points.size());

@@ -115,7 +115,7 @@ private:
     /// Throws where a response would exceed its memory budget.
     [[nodiscard]] Surface extract(const Atlas& atlas, double tau, SurfaceOptions options, const Context& context) const;
     [[nodiscard]] std::int64_t max_triangles() const;
-    [[nodiscard]] WireMesh wire(const Surface& surface, std::int64_t max, const Context& context) const;
+    [[nodiscard]] WireMesh wire(const Surface& surface, std::int64_t max, const Context& context, bool strips = true) const;
     [[nodiscard]] WireMesh wire_front(const FrontSurface& front, const Context& context) const;
     /// The exact surface, if it has no more triangles than wanted; one with its topology by blocks of an octree, if that has no more; the
     /// exact one, reduced without a promise.

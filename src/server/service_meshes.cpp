@@ -161,7 +161,7 @@ WireMesh Service::unprepared(const Atlas& atlas, double tau, const SurfaceOption
 }
 
 WireMesh Service::wire_front(const FrontSurface& front, const Context& context) const {
-    WireMesh mesh = wire(front.surface, 0, context);
+    WireMesh mesh = wire(front.surface, 0, context, false);  // soon replaced: the sooner it is there the better
     const auto widest = std::ranges::find_if(front.leaves.rbegin(), front.leaves.rend(), [](std::int64_t count) { return count > 0; });
     mesh.coarse = true;  // both surfaces of a block lie in it
     mesh.distance = std::sqrt(3.0) * static_cast<double>(std::int64_t{1} << (front.leaves.rend() - widest - 1));
@@ -220,9 +220,9 @@ Surface Service::extract(const Atlas& atlas, double tau, SurfaceOptions options,
     return atlas.extract(tau, options, context);
 }
 
-WireMesh Service::wire(const Surface& surface, std::int64_t max, const Context& context) const {
+WireMesh Service::wire(const Surface& surface, std::int64_t max, const Context& context, bool strips) const {
     const double spacing = std::ranges::min(store_state_.sides().main.info().geometry.spacing);
-    return wire_mesh(surface, {.step = spacing / kStepsOfVoxel, .max_triangles = max}, context);
+    return wire_mesh(surface, {.step = spacing / kStepsOfVoxel, .max_triangles = max, .strips = strips}, context);
 }
 
 }  // namespace isoatlas

@@ -8,6 +8,7 @@
 #include <sstream>
 #include <string>
 
+#include "geometry/crossings.h"
 #include "isoatlas/level_of_detail.h"
 #include "isoatlas/surface.h"
 #include "isoatlas/verify.h"
@@ -129,14 +130,27 @@ inline isoatlas::SimplifiedReport coarse_report(const Surface& coarse, const Sur
 /// The Euler number of each contour, by the ids of the points.
 inline std::map<std::int64_t, std::int64_t> euler_numbers(const Surface& surface) {
     std::map<std::int64_t, std::int64_t> numbers;
-    std::set<std::array<std::int64_t, 2>> edges;
+    std::vector<std::array<std::int64_t, 2>> edges;
     for (const std::int64_t contour : surface.contour) ++numbers[contour];
     for (const auto& t : surface.triangles) {
         ++numbers[surface.contour[static_cast<std::size_t>(t[0])]];
-        for (std::size_t k = 0; k < 3; ++k) edges.insert({std::min(t[k], t[(k + 1) % 3]), std::max(t[k], t[(k + 1) % 3])});
+        for (std::size_t k = 0; k < 3; ++k) edges.push_back({std::min(t[k], t[(k + 1) % 3]), std::max(t[k], t[(k + 1) % 3])});
     }
+    std::ranges::sort(edges);
+    edges.erase(std::ranges::unique(edges).begin(), edges.end());
     for (const auto& [a, b] : edges) --numbers[surface.contour[static_cast<std::size_t>(a)]];
     return numbers;
+}
+
+/// The first check of a closed surface by itself that does not hold; crossings, which take longest, where they are wanted.
+inline std::string mesh_failure(const Surface& surface, bool crossings) {
+    isoatlas::Mesh mesh;
+    mesh.points = surface.points, mesh.triangles = surface.triangles;
+    for (const isoatlas::CheckResult& check : verify_mesh(mesh)) {
+        if (!check.holds) return check.name + ": " + check.detail;
+    }
+    if (crossings && isoatlas::count_crossings(surface.points, surface.triangles).pairs > 0) return "triangles cross";
+    return {};
 }
 
 /// The first thing that does not hold; empty: all does. Where contours have moved farther than a voxel, thin shells may be nearer to others

@@ -238,12 +238,25 @@ TEST(OctreeFronts, OfSharedVolumesHold) {
             const Surface front = front_of(volume, of.tau, exact.interpolant, coin);
             least = std::min(least, front.triangles.size());
             EXPECT_EQ(component_numbers(front), component_numbers(exact)) << of.volume << " at " << of.tau << ", front " << i;
-            EXPECT_EQ(front_failure(front, exact, volume.info, kInfinity), "") << of.volume << " at " << of.tau << ", front " << i;
+            const bool all_checks = fronts < 100 || i % 25 == 0;  // distances and nesting take most of the time
+            const std::string failure = all_checks ? front_failure(front, exact, volume.info, kInfinity) : mesh_failure(front, true);
+            EXPECT_EQ(failure, "") << of.volume << " at " << of.tau << ", front " << i;
         }
         std::cout << of.volume << " at " << of.tau << ": " << exact.triangles.size() << " -> " << least << " triangles, " << fronts
                   << " fronts\n";
     });
     if (!are_there) GTEST_SKIP() << "no shared data beside the checkout";
+}
+
+/// Of more than 64 words.
+TEST(OctreeFronts, OfLongRowsHold) {
+    const auto tube = [](double x, double y, double z) { return 1.7 - std::hypot(y - 4 - std::sin(x / 40), z - 4 - std::cos(x / 25)); };
+    const isoatlas::Volume volume = volume_of({"a long tube", {3, {4200, 9, 9}}, tube, 0.2});
+    const Surface exact = isoatlas::extract(volume, 0.2);
+    const FrontSurface front = extract_front(volume, 0.2, {.max_level = 3});
+    EXPECT_LT(front.surface.triangles.size(), exact.triangles.size());
+    EXPECT_EQ(component_numbers(front.surface), component_numbers(exact));
+    EXPECT_EQ(front_failure(front.surface, exact, volume.info, kInfinity), "");
 }
 
 TEST(OctreeFronts, AreCoarserWithEachLevel) {

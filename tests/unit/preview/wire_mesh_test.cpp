@@ -70,11 +70,13 @@ std::array<unsigned, 3> cycle(std::array<unsigned, 3> triangle) {
 }
 
 TEST(WireMesh, IsTheSurface) {
-    for (const char* phantom : {"torus-chain", "demo", "noise"}) {
+    bool with_strips = false;
+    for (const char* phantom : {"torus-chain", "torus-chain", "demo", "noise"}) {
         const Surface surface = surface_of(phantom, 0.5);
+        with_strips = !with_strips;
         ASSERT_GT(surface.points.size(), 0U) << phantom;
         constexpr double step = 1.0 / 256;
-        const WireMesh mesh = wire_mesh(surface, {.step = step});
+        const WireMesh mesh = wire_mesh(surface, {.step = step, .strips = with_strips});
         const Decoded result = decoded(mesh);
         EXPECT_FALSE(mesh.coarse);
         EXPECT_EQ(result.step, step);
