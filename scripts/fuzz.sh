@@ -13,8 +13,9 @@ processor_seconds() {
 
 # Runs one target; prints a line for it.
 run_target() {
-    local name=$1 seconds=$2 program=build/fuzz/tests/fuzz/$1_fuzz result="no finding"
+    local name=$1 seconds=$2 program=build/fuzz/tests/fuzz/$1_fuzz result="no finding" commit
     local folders=(build/fuzz/corpus/"$name") options=() words=tests/fuzz/$name.dict log=build/fuzz/$name.log
+    commit=$(git rev-parse --short=8 HEAD)
     mkdir -p "${folders[0]}"
     if [[ -d tests/fuzz/corpus/$name ]]; then folders+=(tests/fuzz/corpus/"$name"); fi
     if [[ -f $words ]]; then options+=(-dict="$words"); fi
@@ -34,7 +35,7 @@ run_target() {
     coverage=$(grep -o 'cov: [0-9]*' "$log" | tail -n 1 || true)
     printf '%-14s %8s s of a processor %12s inputs  %10s  %s\n' "$name" "$taken" "${inputs:-0}" "${coverage:-}" "$result"
     if [[ -n ${FUZZ_RECORD:-} ]]; then
-        printf '%s\t%s\t%s\t%s\t%s\t%s\t%s\n' "$name" "$(date -u +%F)" "$(git rev-parse --short=8 HEAD)" "$taken" "${inputs:-0}" \
+        printf '%s\t%s\t%s\t%s\t%s\t%s\t%s\n' "$name" "$(date -u +%F)" "$commit" "$taken" "${inputs:-0}" \
             "${coverage#cov: }" "${result%%:*}" >> "$FUZZ_RECORD"
     fi
     [[ $result == "no finding" ]]
