@@ -1,7 +1,15 @@
-// The HDF5 reader takes any bytes: a documented error or a sound volume.
+// The HDF5 reader takes any bytes: a documented error or a sound volume, and nothing stays open.
+#include <hdf5.h>
+
 #include "formats/volume/formats.h"
 #include "fuzz/volume_target.h"
 
+/// libhdf5 forgets the headers of objects that it cannot read, some hundred bytes each (HDFGroup/hdf5, issues 4586 and 5578). What we
+/// forget to close is counted instead.
+extern "C" const char* __lsan_default_suppressions() { return "leak:libhdf5\n"; }  // NOLINT(bugprone-reserved-identifier)
+
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-    return fuzz::open_and_read(isoatlas::open_hdf5, data, size);
+    const int result = fuzz::open_and_read(isoatlas::open_hdf5, data, size);
+    fuzz::require_volume(H5Fget_obj_count(static_cast<hid_t>(H5F_OBJ_ALL), H5F_OBJ_ALL) == 0);
+    return result;
 }
