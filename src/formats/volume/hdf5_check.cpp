@@ -104,10 +104,11 @@ private:
     }
 
     void check_message(std::uint64_t kind, bool is_shared, std::span<const std::byte> bytes) {
-        constexpr std::uint64_t kSpace = 1, kType = 3, kLayout = 8, kAttribute = 12, kHeapTable = 15, kContinuation = 16;
+        constexpr std::uint64_t kSpace = 1, kType = 3, kLink = 6, kLayout = 8, kAttribute = 12, kHeapTable = 15, kContinuation = 16;
         if (is_shared) return check_shared(bytes);
         if (kind == kHeapTable && is_extension_) has_table_ = true;
         if (kind == kType) return check_type(bytes);
+        if (kind == kLink && !is_sound_link(bytes)) return damaged("a link of the group is damaged");
         if (kind == kSpace && !is_sound_space(bytes)) return damaged("its dimensions do not fit in its header");
         if (kind == kLayout) return check_layout(bytes);
         if (kind == kAttribute) return check_attribute(bytes);
@@ -143,6 +144,20 @@ private:
         cursor.skip(version == 1 ? 5 : 1);
         cursor.skip(rank * frame_.length_bytes * ((flags & 1) != 0 ? 2 : 1));
         return cursor.is_sound && rank <= 32;
+    }
+
+    [[nodiscard]] bool is_sound_link(std::span<const std::byte> bytes) const {
+        constexpr std::uint64_t kHard = 0, kExternal = 64;
+        Hdf5Cursor cursor{bytes};
+        const std::uint64_t version = cursor.number(1), flags = cursor.number(1), kind = (flags & 8) != 0 ? cursor.number(1) : kHard;
+        cursor.skip(((flags & 4) != 0 ? 8 : 0) + ((flags & 16) != 0 ? 1 : 0));
+        cursor.skip(cursor.number(std::size_t{1} << (flags & 3)));  // the name
+        if (kind == kHard) return version == 1 && cursor.skip(frame_.address_bytes);
+        const std::uint64_t size = cursor.number(2);
+        const std::size_t begin = cursor.at;
+        if (!cursor.skip(size) || version != 1) return false;
+        const auto target = bytes.subspan(begin, static_cast<std::size_t>(size));  // a file and an object in it, behind one byte
+        return kind != kExternal || (size > 0 && std::ranges::count(target.subspan(1), std::byte{0}) >= 2);
     }
 
     void check_attribute(std::span<const std::byte> bytes) {

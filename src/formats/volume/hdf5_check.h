@@ -9,8 +9,8 @@
 
 namespace isoatlas {
 
-/// What is damaged in the header of an object: messages that do not lie in it, types and attributes that do not fit in their messages,
-/// sources of a virtual array that do not fit in their heap; "": nothing. Types and attributes that lie in other heaps are not looked at.
+/// What is damaged in the header of an object: messages that do not lie in it, types, attributes and links that do not fit in their
+/// messages, sources of a virtual array that do not fit in their heap; "": nothing. What lies in other heaps is not looked at.
 [[nodiscard]] std::string damage_of_hdf5_header(const Hdf5Frame& frame, std::uint64_t address);
 
 /// Whether a description of a type begins the bytes and lies in them.

@@ -126,9 +126,20 @@ void Hdf5File::Data::fail(const std::string& where, const std::string& what) {
                                    .next = "the file is damaged or cut off: get it again"});
 }
 
+bool Hdf5File::Data::find(const std::string& object, Hdf5Info& info) {
+    for (std::size_t end = 0; end != std::string::npos;) {
+        end = object.find('/', end + 1);
+        const std::string part = object.substr(0, end);
+        if (H5Oget_info_by_name2(file, part.c_str(), &info, H5O_INFO_BASIC, links) < 0) return false;
+        if (info.type != H5O_TYPE_GROUP) continue;
+        if (const std::string damage = damage_at(info.fileno, info.addr); !damage.empty()) fail(part, damage);
+    }
+    return true;
+}
+
 std::string Hdf5File::Data::damage(const std::string& object) {
     Hdf5Info info{};
-    if (H5Oget_info_by_name2(file, object.c_str(), &info, H5O_INFO_BASIC, links) < 0) return {};
+    if (!find(object, info)) return {};
     return damage_at(info.fileno, info.addr);
 }
 
@@ -150,7 +161,7 @@ Hdf5Handle Hdf5File::Data::open_array(const std::string& path, hid_t properties)
     access.forget();
     // The path may lead through links, which H5Dopen2 follows by the properties of the file alone.
     Hdf5Info info{};
-    if (H5Oget_info_by_name2(file, path.c_str(), &info, H5O_INFO_BASIC, links) < 0) fail(path, "cannot be found");
+    if (!find(path, info)) fail(path, "cannot be found");
     if (info.type != H5O_TYPE_DATASET) fail(path, "is not an array");
     if (const std::string damage = damage_at(info.fileno, info.addr); !damage.empty()) fail(path, damage);
     Hdf5Handle set(H5Dopen2(file, path.c_str(), properties), H5Dclose);
@@ -167,6 +178,8 @@ Hdf5File::Hdf5File(const std::string& path, bool follow_links) : data_(std::make
     data_->file = {H5Fopen(path.c_str(), H5F_ACC_RDONLY, properties), H5Fclose};
     if (data_->file < 0) data_->fail("superblock", "HDF5 cannot open the file");
     data_->links = {H5Pcreate(H5P_LINK_ACCESS), H5Pclose};
+    Hdf5Info info{};
+    (void)data_->find("/", info);
 }
 
 Hdf5File::~Hdf5File() {
@@ -180,7 +193,7 @@ Hdf5File::Kind Hdf5File::kind(const std::string& object, std::optional<Error>* r
     const std::lock_guard lock(hdf5_mutex());
     data_->access.forget();
     Hdf5Info info{};
-    if (H5Oget_info_by_name2(data_->file, object.c_str(), &info, H5O_INFO_BASIC, data_->links) < 0) {
+    if (!data_->find(object, info)) {
         if (refused != nullptr) *refused = data_->access.failure ? data_->access.failure : data_->access.missing;
         return Kind::none;
     }
@@ -190,7 +203,7 @@ Hdf5File::Kind Hdf5File::kind(const std::string& object, std::optional<Error>* r
 std::string Hdf5File::identity(const std::string& object) const {
     const std::lock_guard lock(hdf5_mutex());
     Hdf5Info info{};
-    if (H5Oget_info_by_name2(data_->file, object.c_str(), &info, H5O_INFO_BASIC, data_->links) < 0) return {};
+    if (!data_->find(object, info)) return {};
     return std::to_string(info.fileno) + ":" + std::to_string(info.addr);
 }
 
@@ -198,11 +211,11 @@ std::vector<std::string> Hdf5File::names(const std::string& group) const {
     const std::lock_guard lock(hdf5_mutex());
     std::vector<std::string> names;
     Hdf5Info info{};
-    if (H5Oget_info_by_name2(data_->file, group.c_str(), &info, H5O_INFO_BASIC, data_->links) < 0) return names;
+    if (!data_->find(group, info)) return names;
     if (info.type != H5O_TYPE_GROUP) return names;
     const Hdf5Handle opened(H5Oopen(data_->file, group.c_str(), data_->links), H5Oclose);
     if (opened < 0) return names;
-    const auto add = [](hid_t, const char* name, const auto*, void* out) -> herr_t {
+    const auto add = [](hid_t, const char* name, void* out) -> herr_t {
         auto& list = *static_cast<std::vector<std::string>*>(out);
         if (list.size() >= kMostNames) return 1;
         try {
@@ -212,11 +225,11 @@ std::vector<std::string> Hdf5File::names(const std::string& group) const {
         }
         return 0;
     };
-    // libhdf5 1.10 crashes where it lists a group with a link that it cannot read: looking for a name that no link has reads each by itself.
-    hsize_t next = 0;
+    // libhdf5 1.10 crashes where it lists a group with a link that it cannot read: looking for a name that no link has reads each by
+    // itself. Not H5Literate, which asks the classes of links about each, and crashes on external ones without a target.
+    int next = 0;
     const bool is_sound = H5Lexists(opened, "\x01", H5P_DEFAULT) >= 0;
-    if (!is_sound || H5Literate(opened, H5_INDEX_NAME, H5_ITER_NATIVE, &next, add, &names) < 0)
-        data_->fail(group, "the group cannot be listed");
+    if (!is_sound || H5Giterate(opened, ".", &next, add, &names) < 0) data_->fail(group, "the group cannot be listed");
     std::ranges::sort(names);
     return names;
 }

@@ -25,6 +25,8 @@ struct Hdf5File::Data {
 
     /// What is damaged in the header of an object, so that HDF5 must not open it or its attributes; "": nothing, or it is not there.
     [[nodiscard]] std::string damage(const std::string& object);
+    /// Follows a path, group by group, none of which may be damaged: Error{input}. false: it leads nowhere.
+    [[nodiscard]] bool find(const std::string& object, Hdf5Info& info);
     [[nodiscard]] std::string damage_at(unsigned long number, haddr_t address);
     /// The error of the last call: that of a file, else what HDF5 says.
     [[noreturn]] void fail(const std::string& where, const std::string& what);
