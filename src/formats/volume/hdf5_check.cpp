@@ -104,12 +104,14 @@ private:
     }
 
     void check_message(std::uint64_t kind, bool is_shared, std::span<const std::byte> bytes) {
-        constexpr std::uint64_t kSpace = 1, kType = 3, kLink = 6, kLayout = 8, kAttribute = 12, kHeapTable = 15, kContinuation = 16;
+        constexpr std::uint64_t kSpace = 1, kType = 3, kLink = 6, kLayout = 8, kAttribute = 12, kHeapTable = 15, kContinuation = 16,
+                                kSymbols = 17;
         if (is_shared) return check_shared(bytes);
         if (kind == kHeapTable && is_extension_) has_table_ = true;
         if (kind == kType) return check_type(bytes);
         if (kind == kLink && !is_sound_link(bytes)) return damaged("a link of the group is damaged");
         if (kind == kSpace && !is_sound_space(bytes)) return damaged("its dimensions do not fit in its header");
+        if (kind == kSymbols && !is_sound_symbol_table(bytes)) return damaged("the names of its links are damaged");
         if (kind == kLayout) return check_layout(bytes);
         if (kind == kAttribute) return check_attribute(bytes);
         if (kind != kContinuation) return;
@@ -144,6 +146,24 @@ private:
         cursor.skip(version == 1 ? 5 : 1);
         cursor.skip(rank * frame_.length_bytes * ((flags & 1) != 0 ? 2 : 1));
         return cursor.is_sound && rank <= 32;
+    }
+
+    /// The local heap with the names of a group: HDF5 follows its list of free blocks for ever where that has no end.
+    [[nodiscard]] bool is_sound_symbol_table(std::span<const std::byte> bytes) const {
+        constexpr std::uint64_t kNoBlock = 1;
+        const std::size_t length = frame_.length_bytes;
+        Hdf5Cursor cursor{bytes};
+        cursor.skip(frame_.address_bytes);  // a tree
+        const std::uint64_t heap = cursor.number(frame_.address_bytes);
+        std::vector<std::byte> head(8 + 2 * length + frame_.address_bytes), block(2 * length);
+        if (!cursor.is_sound || !frame_.read(heap, head) || !begins_with(head, "HEAP")) return false;
+        const std::uint64_t size = hdf5_number(head, 8, length), data = hdf5_number(head, 8 + 2 * length, frame_.address_bytes);
+        if (size > frame_.rest(data)) return false;
+        std::uint64_t left = size / block.size();
+        for (std::uint64_t at = hdf5_number(head, 8 + length, length); at != kNoBlock; at = hdf5_number(block, 0, length)) {
+            if (left-- == 0 || at > size || size - at < block.size() || !frame_.read(data + at, block)) return false;
+        }
+        return true;
     }
 
     [[nodiscard]] bool is_sound_link(std::span<const std::byte> bytes) const {
