@@ -39,16 +39,16 @@ void FrontHits::keep(std::int64_t row, std::span<const EdgeHit> hits) {
     Row& found = rows_[static_cast<std::size_t>(row)];
     found.begin.resize(lines + 1);
     for (std::size_t line = 0; line < lines; ++line) {
-        found.begin[line] = static_cast<std::uint32_t>(found.position.size());
+        found.begin[line] = found.position.size();
         for (std::uint64_t pending = std::exchange(marks.words[line], 0); pending != 0; pending &= pending - 1) {
             for (auto word = static_cast<std::size_t>(std::countr_zero(pending)); word < words_of_line; word += 64) {
                 for (std::uint64_t bits = std::exchange(marks.bits[line * words_of_line + word], 0); bits != 0; bits &= bits - 1)
                     found.position.push_back(static_cast<std::int32_t>(64 * static_cast<std::int64_t>(word) + std::countr_zero(bits)));
             }
         }
-        if (words_of_line > 64) std::sort(found.position.begin() + found.begin[line], found.position.end());
+        if (words_of_line > 64) std::sort(found.position.begin() + static_cast<std::ptrdiff_t>(found.begin[line]), found.position.end());
     }
-    found.begin[lines] = static_cast<std::uint32_t>(found.position.size());
+    found.begin[lines] = found.position.size();
 }
 
 std::int64_t FrontHits::number() {
@@ -60,10 +60,11 @@ std::int64_t FrontHits::number() {
 std::int64_t FrontHits::point_of(const EdgeHit& hit) const {
     const Row& row = rows_[static_cast<std::size_t>(owner_of(hit))];
     const std::size_t line = line_of(hit);
-    const auto begin = row.position.begin() + row.begin[line], end = row.position.begin() + row.begin[line + 1];
+    const auto first = row.position.begin();
+    const auto begin = first + static_cast<std::ptrdiff_t>(row.begin[line]), end = first + static_cast<std::ptrdiff_t>(row.begin[line + 1]);
     const auto found = std::lower_bound(begin, end, hit.position[0]);
     ISOATLAS_CHECK(found != end && *found == hit.position[0]);
-    return row.point + (found - row.position.begin());
+    return row.point + (found - first);
 }
 
 }  // namespace isoatlas

@@ -6,6 +6,7 @@
 // Points are in the order of their owners, in each in that of z, y, axis, x.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -33,7 +34,7 @@ public:
 
 private:
     struct Row {
-        std::vector<std::uint32_t> begin;    ///< of each line, in `position`; and the end of the last
+        std::vector<std::size_t> begin;      ///< of each line, in `position`; and the end of the last
         std::vector<std::int32_t> position;  ///< along x
         std::int64_t point = 0;              ///< the first one
     };
@@ -61,11 +62,12 @@ void FrontHits::for_bundles(std::int64_t row, const Visit& visit) const {
         lines.clear();
         for (std::int64_t z = 0; z < width; ++z) {
             for (std::int64_t y = y_begin; y < std::min(width, y_begin + kBundleSize[1]); ++y) {
-                const std::uint32_t* const begin = &of.begin[static_cast<std::size_t>(3 * (z << shift_ | y))];
+                const std::size_t* const begin = &of.begin[static_cast<std::size_t>(3 * (z << shift_ | y))];
                 for (std::size_t axis = 0; axis < 3; ++axis) {
                     if (begin[axis] == begin[axis + 1]) continue;
                     lines.push_back({first_y + y, first_z + z, axis,
-                                     std::span(of.position).subspan(begin[axis], begin[axis + 1] - begin[axis]), of.point + begin[axis]});
+                                     std::span(of.position).subspan(begin[axis], begin[axis + 1] - begin[axis]),
+                                     of.point + static_cast<std::int64_t>(begin[axis])});
                 }
             }
         }
