@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <cstring>
+#include <optional>
 
 #include "formats/common/field_reader.h"
 
@@ -94,6 +95,7 @@ std::string jpeg_contradiction(const DicomPixels& pixels, std::span<const std::b
     if (packed.size() < 4 || packed[0] != std::byte{0xFF}) return kNoPicture;
     if (packed[1] == std::byte{0x4F}) return jpeg_2000_contradiction(pixels, packed);
     if (packed[1] != std::byte{0xD8}) return kNoPicture;
+    std::optional<std::string> found;  // of the frame, once it was seen
     for (std::size_t at = 2; at + 4 <= packed.size();) {
         if (packed[at] != std::byte{0xFF}) return kNoPicture;
         const int marker = std::to_integer<int>(packed[at + 1]);
@@ -102,13 +104,14 @@ std::string jpeg_contradiction(const DicomPixels& pixels, std::span<const std::b
             continue;
         }
         const std::size_t length = fields.at<std::uint16_t>(at + 2);
-        if (length < 2 || marker == 0xDA || marker == 0xD9) return kNoPicture;
+        if (marker == 0xDA) return found.value_or(kNoPicture);  // a frame without a scan ends GDCM by an assertion
+        if (length < 2 || marker == 0xD9) return kNoPicture;
         if (is_frame_marker(marker)) {
-            if (at + 10 > packed.size()) return kNoPicture;
-            return difference(pixels, {.width = fields.at<std::uint16_t>(at + 7),
-                                       .height = fields.at<std::uint16_t>(at + 5),
-                                       .components = std::to_integer<int>(packed[at + 9]),
-                                       .bits = std::to_integer<int>(packed[at + 4])});
+            if (found || at + 10 > packed.size()) return kNoPicture;
+            found = difference(pixels, {.width = fields.at<std::uint16_t>(at + 7),
+                                        .height = fields.at<std::uint16_t>(at + 5),
+                                        .components = std::to_integer<int>(packed[at + 9]),
+                                        .bits = std::to_integer<int>(packed[at + 4])});
         }
         at += 2 + length;
     }

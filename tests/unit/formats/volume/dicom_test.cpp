@@ -327,13 +327,15 @@ TEST(Dicom, CodeStreamsMustAgree) {
     pixels.rows = 3, pixels.columns = 4, pixels.allocated = 8, pixels.type = ValueType::u8;
     const auto wrong = [&](const std::string& stream) { return jpeg_contradiction(pixels, std::as_bytes(std::span(stream))); };
     const auto jpeg = [](char bits, char rows, char columns, char components) {
-        return std::string("\xFF\xD8\xFF\xC3\x00\x0B", 6) + bits + '\0' + rows + '\0' + columns + components + std::string(3, '\0');
+        return std::string("\xFF\xD8\xFF\xC3\x00\x0B", 6) + bits + '\0' + rows + '\0' + columns + components +
+               std::string("\x01\x11\x00\xFF\xDA\x00\x08", 7);
     };
     EXPECT_EQ(wrong(jpeg(8, 3, 4, 1)), "");
+    EXPECT_NE(wrong(jpeg(8, 3, 4, 1).substr(0, 15) + "\xFF\xD9"), "") << "no scan";
     EXPECT_NE(wrong(jpeg(8, 4, 3, 1)), "");
     EXPECT_NE(wrong(jpeg(12, 3, 4, 1)), "");
     EXPECT_NE(wrong(jpeg(8, 3, 4, 3)), "");
-    for (std::size_t size = 0; size < 12; ++size) EXPECT_NE(wrong(jpeg(8, 3, 4, 1).substr(0, size)), "");
+    for (std::size_t size = 0; size < 19; ++size) EXPECT_NE(wrong(jpeg(8, 3, 4, 1).substr(0, size)), "");
 }
 
 TEST(Dicom, Damage) {
