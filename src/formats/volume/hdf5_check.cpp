@@ -104,11 +104,12 @@ private:
     }
 
     void check_message(std::uint64_t kind, bool is_shared, std::span<const std::byte> bytes) {
-        constexpr std::uint64_t kSpace = 1, kType = 3, kLink = 6, kLayout = 8, kAttribute = 12, kHeapTable = 15, kContinuation = 16,
-                                kSymbols = 17;
+        constexpr std::uint64_t kSpace = 1, kLinks = 2, kType = 3, kLink = 6, kLayout = 8, kAttribute = 12, kHeapTable = 15,
+                                kContinuation = 16, kSymbols = 17;
         if (is_shared) return check_shared(bytes);
         if (kind == kHeapTable && is_extension_) has_table_ = true;
         if (kind == kType) return check_type(bytes);
+        if (kind == kLinks && !is_sound_link_info(bytes)) return damaged("the places of its links are damaged");
         if (kind == kLink && !is_sound_link(bytes)) return damaged("a link of the group is damaged");
         if (kind == kSpace && !is_sound_space(bytes)) return damaged("its dimensions do not fit in its header");
         if (kind == kSymbols && !is_sound_symbol_table(bytes)) return damaged("the names of its links are damaged");
@@ -164,6 +165,21 @@ private:
             if (left-- == 0 || at > size || size - at < block.size() || !frame_.read(data + at, block)) return false;
         }
         return true;
+    }
+
+    /// Where the links of a group lie that are not in its header: nowhere, or in the file.
+    [[nodiscard]] bool is_sound_link_info(std::span<const std::byte> bytes) const {
+        Hdf5Cursor cursor{bytes};
+        cursor.skip(1);
+        const std::uint64_t flags = cursor.number(1), places = (flags & 2) != 0 ? 3 : 2;
+        if ((flags & 1) != 0) cursor.skip(8);
+        const std::uint64_t none = frame_.address_bytes == 8 ? ~std::uint64_t{0} : (std::uint64_t{1} << 8 * frame_.address_bytes) - 1;
+        bool is_sound = true;
+        for (std::uint64_t i = 0; i < places; ++i) {
+            const std::uint64_t address = cursor.number(frame_.address_bytes);
+            is_sound = is_sound && (address == none || frame_.rest(address) > 0);
+        }
+        return is_sound && cursor.is_sound;
     }
 
     [[nodiscard]] bool is_sound_link(std::span<const std::byte> bytes) const {
