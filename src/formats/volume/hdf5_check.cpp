@@ -167,17 +167,20 @@ private:
         return true;
     }
 
+    [[nodiscard]] bool is_nowhere(std::uint64_t address) const {
+        return address == (frame_.address_bytes == 8 ? ~std::uint64_t{0} : (std::uint64_t{1} << 8 * frame_.address_bytes) - 1);
+    }
+
     /// Where the links of a group lie that are not in its header: nowhere, or in the file.
     [[nodiscard]] bool is_sound_link_info(std::span<const std::byte> bytes) const {
         Hdf5Cursor cursor{bytes};
         cursor.skip(1);
         const std::uint64_t flags = cursor.number(1), places = (flags & 2) != 0 ? 3 : 2;
         if ((flags & 1) != 0) cursor.skip(8);
-        const std::uint64_t none = frame_.address_bytes == 8 ? ~std::uint64_t{0} : (std::uint64_t{1} << 8 * frame_.address_bytes) - 1;
         bool is_sound = true;
         for (std::uint64_t i = 0; i < places; ++i) {
             const std::uint64_t address = cursor.number(frame_.address_bytes);
-            is_sound = is_sound && (address == none || frame_.rest(address) > 0);
+            is_sound = is_sound && (is_nowhere(address) || frame_.rest(address) > 0);
         }
         return is_sound && cursor.is_sound;
     }
@@ -224,8 +227,7 @@ private:
         const std::uint64_t version = cursor.number(1), kind = cursor.number(1);
         if (version < 4 || kind != kVirtual) return;
         const std::uint64_t address = cursor.number(frame_.address_bytes), number = cursor.number(4);
-        const std::uint64_t none = frame_.address_bytes == 8 ? ~std::uint64_t{0} : (std::uint64_t{1} << 8 * frame_.address_bytes) - 1;
-        if (cursor.is_sound && address == none) return;
+        if (cursor.is_sound && is_nowhere(address)) return;
         const std::vector<std::byte> collection = cursor.is_sound ? read_hdf5_collection(frame_, address) : std::vector<std::byte>{};
         if (collection.empty() || !is_sound_hdf5_collection(frame_, collection) || number == 0 ||
             !is_sound_hdf5_source_list(frame_, hdf5_object(frame_, collection, number)))
