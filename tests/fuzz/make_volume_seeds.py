@@ -196,7 +196,8 @@ def main():
     write("dicom", "deflated", meta + packer.compress(content) + packer.flush())
     run = struct.pack("<2I", 1, 64) + bytes(56) + b"\x0b" + SAMPLES[:12] + b"\0"
     write("dicom", "rle", b"".join(dicom("1.2.840.10008.1.2.5", pixels=fragments(run))))
-    jpeg = bytes.fromhex("ffd8ffc3000b08000300040111000000ffda0008010100000100ffd9")
+    # lossless: 4x3 samples of 8 bits; a table of one code (a difference of zero); 12 such differences
+    jpeg = bytes.fromhex("ffd8 ffc3000b08000300040101 1100 ffc4001400 01000000000000000000000000000000 00 ffda00080101 00010000 000f ffd9")
     write("dicom", "jpeg", b"".join(dicom("1.2.840.10008.1.2.4.70", pixels=fragments(jpeg))))
     write("dicom", "frames", b"".join(dicom(frames=3, more={0x00180088: ("DS", b"2")}.items())))
     frame = lambda place: sequence(0x00209113, element(0x00200032, "DS", place))
