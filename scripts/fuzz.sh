@@ -19,7 +19,7 @@ run_target() {
     mkdir -p "${folders[0]}"
     if [[ -d tests/fuzz/corpus/$name ]]; then folders+=(tests/fuzz/corpus/"$name"); fi
     if [[ -f $words ]]; then options+=(-dict="$words"); fi
-    "$program" "${options[@]}" -rss_limit_mb=2048 -timeout=20 -print_final_stats=1 -artifact_prefix=build/fuzz/crashes/"$name"- \
+    "$program" "${options[@]}" -rss_limit_mb=2048 -timeout=60 -print_final_stats=1 -artifact_prefix=build/fuzz/crashes/"$name"- \
         "${folders[@]}" > "$log" 2>&1 &
     local process=$! taken=0 now inputs coverage
     while now=$(processor_seconds "$process") && [[ -n $now ]]; do

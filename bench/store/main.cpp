@@ -244,12 +244,14 @@ ordered_json measure_fronts(const Arguments& arguments) {
         isoatlas::FrontSurface coarse, stepped;
         const double exact = seconds_of([&] { surface = atlas.extract(tau, options, arguments.context); });
         const double fresh = seconds_of([&] { coarse = atlas.extract_front(tau, front, options, arguments.context); });
-        const double by_step = seconds_of([&] { stepped = navigator.extract_front(tau, front, arguments.context); });
+        PhaseClock clock;
+        const double by_step = seconds_of([&] { stepped = navigator.extract_front(tau, front, clock.watched(arguments.context)); });
         if (stepped.surface.triangles != coarse.surface.triangles || stepped.surface.points != coarse.surface.points)
             throw std::runtime_error("a front is another one after a step");
         if (i < 0) continue;
         result["reading"].push_back(reading(samples, arguments.context.threads));
         result["exact"].push_back(exact), result["front"].push_back(fresh), result["step"].push_back(by_step);
+        for (const auto& [phase, seconds] : clock.phases()) result["step: " + phase].push_back(seconds);
         result["exact_triangles"].push_back(surface.triangles.size()), result["triangles"].push_back(coarse.surface.triangles.size());
     }
     return result;
