@@ -35,6 +35,12 @@ inline std::string broken_promise_of(const isoatlas::Volume& volume, double tau,
         if (const std::string found = failure(front.surface, oracle::kInfinity); !found.empty()) return "octree front: " + found;
     }
     const auto hierarchy = make_clusters(exact, geometry, volume.info.extent, {.triangles = 12, .clusters = 5});
+    for (const isoatlas::ClusterGroup& group : hierarchy.groups) {
+        for (const std::int64_t part : group.made_of) {
+            const double before = hierarchy.groups[static_cast<std::size_t>(part)].distance;
+            if (group.distance <= 2 * before) return "a step of twice the length is not added to those before it";
+        }
+    }
     for (const unsigned tenths : {10U, 8U}) {
         double distance = 0;
         const oracle::Surface choice = surface_of_choice(hierarchy, [&](std::int64_t group) {
