@@ -39,6 +39,11 @@ def main():
         layout[0], layout[1] = h5py.VirtualSource("a", "v", shape=(3, 2)), h5py.VirtualSource(".", "own", shape=(3, 2))
         file["own"] = SAMPLES[0]
         file.create_virtual_dataset("v", layout)
+    with hdf5("virtual_circle") as file:
+        for own, source in ("v", "w"), ("w", "v"):
+            layout = h5py.VirtualLayout((3, 2), "<u2")
+            layout[:] = h5py.VirtualSource(".", source, shape=(3, 2))
+            file.create_virtual_dataset(own, layout)
     with hdf5("nexus") as file:
         group = file.create_group("entry/data")
         group["v"], group["y"], group["x"] = SAMPLES[:, :, 0], [4.0, 3, 2, 1], [0.0, 1, 4]

@@ -171,6 +171,58 @@ def test_virtual_and_external_storage(tmp_path):
         read(tmp_path / "e.h5").volume
 
 
+def virtual(path, name, source, file="."):
+    """An array of 1 x 4 x 5 that is another one."""
+    layout = h5py.VirtualLayout((1, 4, 5), "u1")
+    layout[:] = h5py.VirtualSource(file, source, shape=(1, 4, 5))
+    with h5py.File(path, "a") as opened:
+        opened.create_virtual_dataset(name, layout)
+
+
+def test_virtual_arrays_of_virtual_arrays(tmp_path):
+    array = np.arange(20, dtype="u1").reshape(1, 4, 5)
+    with h5py.File(tmp_path / "samples.h5", "w") as file:
+        file["g/0"] = array
+    virtual(tmp_path / "v.h5", "1", "g/0", file="samples.h5")
+    for i in range(2, 10):
+        virtual(tmp_path / "v.h5", str(i), str(i - 1))
+    assert np.array_equal(read(f"{tmp_path}/v.h5:/8").volume, array)
+    with pytest.raises(isoatlas.InputError, match="more than 8"):
+        read(f"{tmp_path}/v.h5:/9").volume
+
+
+def test_virtual_arrays_in_a_circle(tmp_path):
+    """libhdf5 follows them until its stack is full."""
+    virtual(tmp_path / "itself.h5", "v", "v")
+    virtual(tmp_path / "pair.h5", "v", "w")
+    virtual(tmp_path / "pair.h5", "w", "v")
+    for one, other in ("a", "b"), ("b", "a"):
+        virtual(tmp_path / f"{one}.h5", "v", "v", file=f"{other}.h5")
+    for name in ("itself.h5:/v", "pair.h5:/v", "a.h5:/v", "b.h5:/v"):
+        with pytest.raises(isoatlas.InputError, match="in a circle"):
+            read(f"{tmp_path}/{name}").volume
+
+
+def test_sources_with_numbers(tmp_path):
+    """%b: a file for each number."""
+    array = np.arange(60, dtype="u1").reshape(3, 4, 5)
+    for i in range(3):
+        with h5py.File(tmp_path / f"part_{i}.h5", "w") as file:
+            file["p"] = array[i:i + 1]
+    create, space = h5py.h5p.create(h5py.h5p.DATASET_CREATE), h5py.h5s.create_simple((3, 4, 5), (h5py.h5s.UNLIMITED, 4, 5))
+    space.select_hyperslab((0, 0, 0), (h5py.h5s.UNLIMITED, 1, 1), (1, 4, 5), (1, 4, 5))
+    create.set_virtual(space, b"part_%b.h5", b"p", h5py.h5s.create_simple((1, 4, 5)))
+    with h5py.File(tmp_path / "v.h5", "w", libver="latest") as file:
+        h5py.h5d.create(file.id, b"v", h5py.h5t.STD_U8LE, space, create)
+    with h5py.File(tmp_path / "v.h5") as file:
+        found = file["v"][:]  # which parts HDF5 finds depends on its version
+    assert len(found) >= 1 and np.array_equal(read(tmp_path / "v.h5").volume, found)
+    with open(tmp_path / "part_0.h5", "r+b") as file:
+        file.truncate(1000)
+    with pytest.raises(isoatlas.Error):
+        read(tmp_path / "v.h5").volume
+
+
 def test_files_outside_the_folder_are_not_read(tmp_path):
     (tmp_path / "in").mkdir()
     with h5py.File(tmp_path / "secret.h5", "w") as file:

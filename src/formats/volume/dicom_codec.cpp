@@ -1,6 +1,7 @@
 #include "formats/volume/dicom_codec.h"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cstring>
 #include <optional>
@@ -88,6 +89,13 @@ bool is_frame_marker(int marker) {
     return (marker >= 0xC0 && marker <= 0xCF && !is_other) || marker == 0xF7;
 }
 
+/// Of a segment with a length that may come before the first scan. The others, restart markers above all, stand alone for GDCM, whose next
+/// marker is then another one.
+bool is_header_marker(int marker) {
+    constexpr std::array kOthers{0xC4, 0xCC, 0xDA, 0xDB, 0xDC, 0xDD, 0xF8, 0xFE};
+    return is_frame_marker(marker) || (marker >= 0xE0 && marker <= 0xEF) || std::ranges::find(kOthers, marker) != kOthers.end();
+}
+
 }  // namespace
 
 std::string jpeg_contradiction(const DicomPixels& pixels, std::span<const std::byte> packed) {
@@ -104,8 +112,8 @@ std::string jpeg_contradiction(const DicomPixels& pixels, std::span<const std::b
             continue;
         }
         const std::size_t length = fields.at<std::uint16_t>(at + 2);
+        if (!is_header_marker(marker) || length < 2 || length > packed.size() - at - 2) return kNoPicture;
         if (marker == 0xDA) return found.value_or(kNoPicture);  // a frame without a scan ends GDCM by an assertion
-        if (length < 2 || marker == 0xD9) return kNoPicture;
         if (is_frame_marker(marker)) {
             if (found || at + 10 > packed.size()) return kNoPicture;
             found = difference(pixels, {.width = fields.at<std::uint16_t>(at + 7),

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cstring>
 #include <deque>
+#include <map>
+#include <optional>
 #include <set>
 #include <string_view>
 #include <vector>
@@ -16,6 +18,7 @@ namespace {
 constexpr std::uint64_t kMaxChunkBytes = std::uint64_t{16} << 20, kMaxBytes = std::uint64_t{128} << 20;
 constexpr std::size_t kMaxHeaders = 1000, kMaxChunks = 100'000;
 constexpr unsigned kSharedFlag = 2;
+constexpr std::size_t kTypeSizeAt = 4;
 
 bool begins_with(std::span<const std::byte> bytes, std::string_view text) {
     return bytes.size() >= text.size() && std::memcmp(bytes.data(), text.data(), text.size()) == 0;
@@ -123,22 +126,58 @@ private:
     }
 
     void check_type(std::span<const std::byte> bytes) {
-        if (!is_sound_hdf5_type(bytes)) damaged("a type does not fit in its header");
+        if (!is_sound_hdf5_type(bytes)) return damaged("a type does not fit in its header");
+        type_bytes_ = hdf5_number(bytes, kTypeSizeAt, 4);
     }
 
     /// A message that lies in the header of another object, or in a heap of the file.
     void check_shared(std::span<const std::byte> bytes) {
-        Hdf5Cursor cursor{bytes};
-        const std::uint64_t version = cursor.number(1), kind = cursor.number(1);
-        if (version >= 2 && kind == 1) {
+        if (is_in_heap(bytes)) {
             needs_table_ = true;
             if (frame_.extension) add_header(*frame_.extension);
             return;
         }
-        if (version == 1) cursor.skip(6 + frame_.length_bytes);
+        const std::optional<std::uint64_t> address = shared_address(bytes);
+        if (!address) return damaged("a part of its header is nowhere");
+        add_header(*address);
+    }
+
+    static bool is_in_heap(std::span<const std::byte> bytes) {
+        Hdf5Cursor cursor{bytes};
+        const std::uint64_t version = cursor.number(1), kind = cursor.number(1);
+        return version >= 2 && kind == 1;
+    }
+    [[nodiscard]] std::optional<std::uint64_t> shared_address(std::span<const std::byte> bytes) const {
+        Hdf5Cursor cursor{bytes};
+        const std::uint64_t version = cursor.number(1);
+        cursor.skip(version == 1 ? 7 + frame_.length_bytes : 1);
         const std::uint64_t address = cursor.number(frame_.address_bytes);
-        if (!cursor.is_sound) return damaged("a part of its header is nowhere");
-        add_header(address);
+        return cursor.is_sound ? std::optional(address) : std::nullopt;
+    }
+
+    /// Bytes of an element of a type that another object is; nullopt: it lies in a heap, or is damaged.
+    std::optional<std::uint64_t> named_type_bytes(std::span<const std::byte> bytes) {
+        const std::optional<std::uint64_t> address = is_in_heap(bytes) ? std::nullopt : shared_address(bytes);
+        if (!address || is_nested_) return std::nullopt;
+        if (const auto known = named_types_.find(*address); known != named_types_.end()) return known->second;
+        HeaderWalk named(frame_);
+        named.is_nested_ = true, named.bytes_ = bytes_;
+        named.walk_header(*address);
+        bytes_ = named.bytes_;
+        return named_types_.emplace(*address, named.damage_.empty() ? named.type_bytes_ : std::nullopt).first->second;
+    }
+
+    /// Elements of a space whose message is sound.
+    [[nodiscard]] double points_of(std::span<const std::byte> bytes) const {
+        constexpr std::uint64_t kNone = 2;
+        Hdf5Cursor cursor{bytes};
+        const std::uint64_t version = cursor.number(1), rank = cursor.number(1);
+        cursor.skip(1);
+        if (version >= 2 && cursor.number(1) == kNone) return 0;
+        if (version == 1) cursor.skip(5);
+        double points = 1;
+        for (std::uint64_t i = 0; i < rank; ++i) points *= static_cast<double>(cursor.number(frame_.length_bytes));
+        return points;
     }
 
     [[nodiscard]] bool is_sound_space(std::span<const std::byte> bytes) const {
@@ -219,6 +258,11 @@ private:
         if (!is_named || (!has_shared_space && !is_sound_space(part(space_at, space)))) return damaged("an attribute is damaged");
         if (has_shared_space) check_shared(part(space_at, space));
         has_shared_type ? check_shared(part(type_at, type)) : check_type(part(type_at, type));
+        if (has_shared_space || !damage_.empty()) return;
+        const std::optional<std::uint64_t> size = has_shared_type ? named_type_bytes(part(type_at, type)) : type_bytes_;
+        const auto rest = static_cast<double>(bytes.size() - cursor.at);
+        if (size && points_of(part(space_at, space)) * static_cast<double>(*size) > rest)
+            damaged("the values of an attribute do not fit in it");
     }
 
     void check_layout(std::span<const std::byte> bytes) {
@@ -240,6 +284,9 @@ private:
     std::vector<Chunk> chunks_;  ///< of the header
     std::string damage_;
     std::uint64_t bytes_ = 0;
+    std::optional<std::uint64_t> type_bytes_{};  ///< of an element of the last type
+    std::map<std::uint64_t, std::optional<std::uint64_t>> named_types_;
+    bool is_nested_ = false;  ///< walks a named type alone
     bool is_new_ = false, has_order_ = false, is_extension_ = false;
     bool needs_table_ = false, has_table_ = false;  ///< of shared messages
 };

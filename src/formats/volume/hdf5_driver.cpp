@@ -9,6 +9,7 @@
 
 #include "formats/common/file_access.h"
 #include "formats/common/own_folder.h"
+#include "formats/volume/hdf5_check.h"
 
 namespace isoatlas {
 namespace {
@@ -22,6 +23,14 @@ struct OpenHdf5File {
     std::unique_ptr<File> file{};
     haddr_t end_of_allocation = 0;
 };
+
+/// HDF5 takes as much memory for the header of the first group as that says.
+void require_sound_root(File& file, const std::string& name) {
+    const std::optional<Hdf5Frame> frame = hdf5_frame_of(file);
+    const std::string damage = frame ? damage_of_hdf5_header(*frame, frame->root) : std::string();
+    if (damage.empty()) return;
+    throw Error(ErrorKind::input, {.file = name, .where = "/", .what = damage, .next = "the file is damaged or cut off: get it again"});
+}
 
 /// A virtual file driver that reads alone. No exception may pass through HDF5: it is kept.
 struct ReadingDriver {
@@ -55,6 +64,7 @@ struct ReadingDriver {
                 access.missing = error;
                 return nullptr;
             }
+            require_sound_root(*opened->file, name);
             return reinterpret_cast<H5FD_t*>(opened.release());
         } catch (const Error& error) {
             if (!access.failure && !access.missing) access.failure = error;  // HDF5 looks in other folders for what it misses

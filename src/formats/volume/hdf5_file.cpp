@@ -126,11 +126,11 @@ void Hdf5File::Data::fail(const std::string& where, const std::string& what) {
                                    .next = "the file is damaged or cut off: get it again"});
 }
 
-bool Hdf5File::Data::find(const std::string& object, Hdf5Info& info) {
+bool Hdf5File::Data::find(hid_t in, const std::string& object, Hdf5Info& info) {
     for (std::size_t end = 0; end != std::string::npos;) {
         end = object.find('/', end + 1);
         const std::string part = object.substr(0, end);
-        if (H5Oget_info_by_name2(file, part.c_str(), &info, H5O_INFO_BASIC, links) < 0) return false;
+        if (H5Oget_info_by_name2(in, part.c_str(), &info, H5O_INFO_BASIC, links) < 0) return false;
         if (info.type != H5O_TYPE_GROUP) continue;
         if (const std::string damage = damage_at(info.fileno, info.addr); !damage.empty()) fail(part, damage);
     }

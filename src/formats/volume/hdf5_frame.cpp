@@ -18,6 +18,17 @@ bool fill(File& file, std::uint64_t offset, std::span<std::byte> out) {
     return true;
 }
 
+/// What follows the version and the counts of a superblock: addresses, among them that of the header of the first group.
+bool read_addresses(Hdf5Frame& frame, std::uint64_t version) {
+    const std::size_t first = version == 0 ? 24 : version == 1 ? 28 : 12, size = frame.address_bytes;
+    std::vector<std::byte> bytes(first + 5 * size + frame.length_bytes);
+    if (!frame.read(0, bytes)) return false;
+    frame.root = hdf5_number(bytes, first + (version < 2 ? 4 * size + frame.length_bytes : 3 * size), size);
+    const std::uint64_t none = ~std::uint64_t{0} >> (64 - 8 * size), extension = hdf5_number(bytes, first + size, size);
+    if (version >= 2 && extension != none) frame.extension = extension;
+    return true;
+}
+
 }  // namespace
 
 std::uint64_t Hdf5Frame::rest(std::uint64_t address) const {
@@ -36,18 +47,14 @@ std::optional<Hdf5Frame> hdf5_frame_of(File& file) {
     for (std::uint64_t at = 0; at <= all && all - at >= bytes.size(); at = at == 0 ? 512 : 2 * at) {
         if (!fill(file, at, bytes)) return std::nullopt;
         if (std::memcmp(bytes.data(), kSignature.data(), kSignature.size()) != 0) continue;
-        const std::size_t sizes = hdf5_number(bytes, 8, 1) < 2 ? 13 : 9;  // by the version of the superblock
-        Hdf5Frame frame{&file,
-                        at,
-                        static_cast<std::size_t>(hdf5_number(bytes, sizes, 1)),
-                        static_cast<std::size_t>(hdf5_number(bytes, sizes + 1, 1)),
-                        {}};
+        const std::uint64_t version = hdf5_number(bytes, 8, 1);
+        const std::size_t sizes = version < 2 ? 13 : 9;
+        Hdf5Frame frame{
+            &file, at, static_cast<std::size_t>(hdf5_number(bytes, sizes, 1)), static_cast<std::size_t>(hdf5_number(bytes, sizes + 1, 1)),
+            {},    0};
         const auto is_known = [](std::size_t count) { return count == 2 || count == 4 || count == 8; };
         if (!is_known(frame.address_bytes) || !is_known(frame.length_bytes)) return std::nullopt;
-        const std::size_t extension = 12 + frame.address_bytes;
-        const std::uint64_t none = ~std::uint64_t{0} >> (64 - 8 * frame.address_bytes),
-                            place = hdf5_number(bytes, extension, frame.address_bytes);
-        if (sizes == 9 && place != none) frame.extension = place;
+        if (!read_addresses(frame, version)) return std::nullopt;
         return frame;
     }
     return std::nullopt;

@@ -17,6 +17,7 @@ struct Hdf5Frame {
     std::uint64_t base = 0;
     std::size_t address_bytes = 0, length_bytes = 0;
     std::optional<std::uint64_t> extension{};  ///< address of a header with what the superblock has not
+    std::uint64_t root = 0;                    ///< address of the header of the first group
 
     /// Bytes from an address to the end of the file; 0: beyond it.
     [[nodiscard]] std::uint64_t rest(std::uint64_t address) const;

@@ -10,6 +10,7 @@
 #include "formats/common/own_folder.h"
 #include "formats/common/text.h"
 #include "formats/volume/hdf5_filters.h"
+#include "formats/volume/hdf5_virtual.h"
 #include "isoatlas/text.h"
 
 namespace isoatlas {
@@ -74,13 +75,6 @@ void check_chunk(Hdf5File::Data& data, const std::string& path, hid_t creation, 
 }
 
 /// Files beside the file in which the samples of an array lie.
-void check_file(const Hdf5Access& access, const std::string& header, const std::string& name, std::uint64_t least) {
-    const std::string file = beside(header, name);
-    if (!access.follow_links) require_own_folder(access.path, file);
-    const auto size = static_cast<std::uint64_t>(file_size(file));  // throws when it is not there: HDF5 would fill the samples in
-    if (size < least) samples_missing(file, name, least, size);
-}
-
 void check_external(const Hdf5Access& access, const std::string& header, hid_t creation) {
     const int files = H5Pget_external_count(creation);
     for (int i = 0; i < files; ++i) {
@@ -89,56 +83,20 @@ void check_external(const Hdf5Access& access, const std::string& header, hid_t c
         hsize_t size = 0;
         if (H5Pget_external(creation, static_cast<unsigned>(i), name.size() - 1, name.data(), &offset, &size) < 0) continue;
         const bool is_bounded = size != H5F_UNLIMITED && size < (std::uint64_t{1} << 62) && offset >= 0;
-        check_file(access, header, name.data(), is_bounded ? static_cast<std::uint64_t>(offset) + size : 0);
-    }
-}
-
-/// HDF5 takes for granted that the samples which a virtual array takes of a source are there.
-void check_source(Hdf5File::Data& data, hid_t file, const std::string& path, hid_t creation, std::size_t i) {
-    std::array<char, 4096> name{};
-    if (H5Pget_virtual_dsetname(creation, i, name.data(), name.size() - 1) <= 0) return;
-    const std::string source = name.data();
-    if (source.find('%') != std::string::npos) return;  // %b stands for a number
-    Hdf5Info info{};
-    if (H5Oget_info_by_name2(file, source.c_str(), &info, H5O_INFO_BASIC, H5P_DEFAULT) < 0 || info.type != H5O_TYPE_DATASET) return;
-    if (const std::string damage = data.damage_at(info.fileno, info.addr); !damage.empty()) data.fail(path, "a source: " + damage);
-    const Hdf5Handle set(H5Dopen2(file, source.c_str(), H5P_DEFAULT), H5Dclose), space(H5Dget_space(set), H5Sclose),
-        wanted(H5Pget_virtual_srcspace(creation, i), H5Sclose);
-    std::array<hsize_t, H5S_MAX_RANK> first{}, last{}, dims{};
-    const int rank = H5Sget_simple_extent_ndims(space);
-    if (set < 0 || rank < 0) data.fail(path, "a source cannot be opened");
-    const Hdf5Handle layout(H5Dget_create_plist(set), H5Pclose), type(H5Dget_type(set), H5Tclose);
-    const double samples = static_cast<double>(H5Sget_simple_extent_npoints(space)) * static_cast<double>(H5Tget_size(type));
-    const bool is_compact = H5Pget_layout(layout) == H5D_COMPACT;
-    if (H5Pget_layout(layout) != H5D_VIRTUAL) data.check_storage(set, source);
-    if (is_compact && static_cast<double>(H5Dget_storage_size(set)) < samples) data.fail(path, "samples of a source are missing");
-    if (H5Sget_select_type(wanted) == H5S_SEL_ALL || H5Sget_select_npoints(wanted) == 0) return;
-    if (rank != H5Sget_simple_extent_ndims(wanted)) data.fail(path, "a source has other dimensions than the array takes of it");
-    if (H5Sget_select_bounds(wanted, first.data(), last.data()) < 0 || H5Sget_simple_extent_dims(space, dims.data(), nullptr) < 0) return;
-    for (std::size_t d = 0; d < static_cast<std::size_t>(rank); ++d) {
-        const bool is_bounded = last[d] < HSIZE_UNDEF - 1;  // else the source may grow
-        if (is_bounded && last[d] >= dims[d]) data.fail(path, "a source has fewer samples than the array takes of it");
-    }
-}
-
-void check_virtual(Hdf5File::Data& data, const std::string& header, hid_t own, const std::string& path, hid_t creation) {
-    constexpr std::size_t kMostSources = 65536;
-    const Hdf5Access& access = data.access;
-    std::size_t count = 0;
-    H5Pget_virtual_count(creation, &count);
-    std::string last;
-    for (std::size_t i = 0; i < std::min(count, kMostSources); ++i) {
-        std::array<char, 4096> name{};
-        if (H5Pget_virtual_filename(creation, i, name.data(), name.size() - 1) <= 0) continue;
-        const std::string source = name.data();
-        if (source == ".") check_source(data, own, path, creation, i);
-        if (source == "." || source == last || source.find('%') != std::string::npos) continue;  // %b stands for a number
-        check_file(access, header, source, 0);
-        last = source;
+        const std::uint64_t least = is_bounded ? static_cast<std::uint64_t>(offset) + size : 0;
+        const std::string file = file_beside(access, header, name.data());
+        const auto bytes = static_cast<std::uint64_t>(file_size(file));  // throws when it is not there: HDF5 would fill the samples in
+        if (bytes < least) samples_missing(file, name.data(), least, bytes);
     }
 }
 
 }  // namespace
+
+std::string file_beside(const Hdf5Access& access, const std::string& header, const std::string& name) {
+    std::string file = beside(header, name);
+    if (!access.follow_links) require_own_folder(access.path, file);
+    return file;
+}
 
 std::vector<Hdf5Filter> hdf5_filters(hid_t creation) {
     std::vector<Hdf5Filter> filters;
@@ -200,7 +158,7 @@ void Hdf5File::Data::check_storage(hid_t set, const std::string& path) {
         fail(path, "the array cannot be read");
     check_filters(access.path, path, creation);
     const H5D_layout_t layout = H5Pget_layout(creation);
-    if (layout == H5D_VIRTUAL) check_virtual(*this, name.data(), own, path, creation);
+    if (layout == H5D_VIRTUAL) check_sources(*this, set, path);
     if (layout == H5D_CHUNKED) {
         std::array<hsize_t, H5S_MAX_RANK> chunk{};
         const int rank = H5Pget_chunk(creation, H5S_MAX_RANK, chunk.data());

@@ -26,7 +26,9 @@ struct Hdf5File::Data {
     /// What is damaged in the header of an object, so that HDF5 must not open it or its attributes; "": nothing, or it is not there.
     [[nodiscard]] std::string damage(const std::string& object);
     /// Follows a path, group by group, none of which may be damaged: Error{input}. false: it leads nowhere.
-    [[nodiscard]] bool find(const std::string& object, Hdf5Info& info);
+    [[nodiscard]] bool find(const std::string& object, Hdf5Info& info) { return find(file, object, info); }
+    /// The same in another file.
+    [[nodiscard]] bool find(hid_t in, const std::string& object, Hdf5Info& info);
     [[nodiscard]] std::string damage_at(unsigned long number, haddr_t address);
     /// The error of the last call: that of a file, else what HDF5 says.
     [[noreturn]] void fail(const std::string& where, const std::string& what);
@@ -35,6 +37,9 @@ struct Hdf5File::Data {
     /// Throws Error: unsupported (a filter that is not there), input (files outside the folder, samples beyond the end of the file).
     void check_storage(hid_t set, const std::string& path);
 };
+
+/// A file that one of HDF5 names, which lies beside it. Throws Error{input} when it may not be opened.
+[[nodiscard]] std::string file_beside(const Hdf5Access& access, const std::string& header, const std::string& name);
 
 [[nodiscard]] Hdf5Type hdf5_type_of(hid_t type);
 

@@ -328,14 +328,18 @@ TEST(Dicom, CodeStreamsMustAgree) {
     const auto wrong = [&](const std::string& stream) { return jpeg_contradiction(pixels, std::as_bytes(std::span(stream))); };
     const auto jpeg = [](char bits, char rows, char columns, char components) {
         return std::string("\xFF\xD8\xFF\xC3\x00\x0B", 6) + bits + '\0' + rows + '\0' + columns + components +
-               std::string("\x01\x11\x00\xFF\xDA\x00\x08", 7);
+               std::string("\x01\x11\x00\xFF\xDA\x00\x08\x01\x01\x00\x01\x00\x00", 13);
     };
     EXPECT_EQ(wrong(jpeg(8, 3, 4, 1)), "");
     EXPECT_NE(wrong(jpeg(8, 3, 4, 1).substr(0, 15) + "\xFF\xD9"), "") << "no scan";
     EXPECT_NE(wrong(jpeg(8, 4, 3, 1)), "");
     EXPECT_NE(wrong(jpeg(12, 3, 4, 1)), "");
     EXPECT_NE(wrong(jpeg(8, 3, 4, 3)), "");
-    for (std::size_t size = 0; size < 19; ++size) EXPECT_NE(wrong(jpeg(8, 3, 4, 1).substr(0, size)), "");
+    const std::string whole = jpeg(8, 3, 4, 1);
+    for (std::size_t size = 0; size < whole.size(); ++size) EXPECT_NE(wrong(whole.substr(0, size)), "") << size;
+    const std::string segment("\x00\x04\x07\x07", 4);
+    EXPECT_EQ(wrong(whole.substr(0, 2) + "\xFF\xE1" + segment + whole.substr(2)), "");
+    EXPECT_NE(wrong(whole.substr(0, 2) + "\xFF\xD4" + segment + whole.substr(2)), "") << "restart markers have no length";
 }
 
 TEST(Dicom, Damage) {
