@@ -15,6 +15,7 @@ sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
 from field import Field
 from runs import FIELDS, REAL, add_options, chosen, ours, sources
 
+PHASES = ["classes", "blocks", "leaves", "points", "triangles"]
 VOLUMES = ["smooth-512", *FIELDS[1:], *REAL]
 
 
@@ -24,7 +25,9 @@ def record(program, store, volume, field, tau, arguments):
     return {"volume": volume, "tau": round(tau, 5), "active, %": field.percent(field.active_cells(tau)),
             "triangles": int(of["exact_triangles"]), "of the front": int(of["triangles"]),
             "front / exact, %": 100 * of["triangles"] / max(of["exact_triangles"], 1),
-            "classified, MB": of["classified_bytes"] / 1e6, "reading, s": of["reading"], "exact, s": of["exact"], "front, s": of["front"], "step, s": of["step"], "exact / step": of["exact"] / of["step"]}
+            "classified, MB": of["classified_bytes"] / 1e6, "reading, s": of["reading"], "exact, s": of["exact"], "front, s": of["front"],
+            "step, s": of["step"],
+            **{f"{phase}, ms": 1000 * of[f"step: {phase}"] for phase in PHASES}, "exact / step": of["exact"] / of["step"]}
 
 
 def main():

@@ -251,7 +251,9 @@ ordered_json measure_fronts(const Arguments& arguments) {
         if (i < 0) continue;
         result["reading"].push_back(reading(samples, arguments.context.threads));
         result["exact"].push_back(exact), result["front"].push_back(fresh), result["step"].push_back(by_step);
-        for (const auto& [phase, seconds] : clock.phases()) result["step: " + phase].push_back(seconds);
+        double classes = by_step;  // what comes before the first phase that a step reports
+        for (const auto& [phase, seconds] : clock.phases()) result["step: " + phase].push_back(seconds), classes -= seconds;
+        result["step: classes"].push_back(classes);
         result["exact_triangles"].push_back(surface.triangles.size()), result["triangles"].push_back(coarse.surface.triangles.size());
     }
     return result;

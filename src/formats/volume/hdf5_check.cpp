@@ -8,9 +8,11 @@
 #include <optional>
 #include <set>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "formats/volume/hdf5_cursor.h"
+#include "formats/volume/hdf5_message_check.h"
 
 namespace isoatlas {
 namespace {
@@ -46,8 +48,8 @@ private:
         bool is_continuation;
     };
 
-    void damaged(const char* what) {
-        if (damage_.empty()) damage_ = what;
+    void damaged(std::string what) {
+        if (damage_.empty()) damage_ = std::move(what);
     }
     void add_header(std::uint64_t address) {
         if (seen_.size() < kMaxHeaders && seen_.insert(address).second) headers_.push_back(address);
@@ -106,19 +108,15 @@ private:
         }
     }
 
-    void check_message(std::uint64_t kind, bool is_shared, std::span<const std::byte> bytes) {
-        constexpr std::uint64_t kSpace = 1, kLinks = 2, kType = 3, kLink = 6, kLayout = 8, kAttribute = 12, kHeapTable = 15,
-                                kContinuation = 16, kSymbols = 17;
+    void check_message(std::uint64_t number, bool is_shared, std::span<const std::byte> bytes) {
+        const auto kind = static_cast<Hdf5Message>(std::min<std::uint64_t>(number, 0xFF));
         if (is_shared) return check_shared(bytes);
-        if (kind == kHeapTable && is_extension_) has_table_ = true;
-        if (kind == kType) return check_type(bytes);
-        if (kind == kLinks && !is_sound_link_info(bytes)) return damaged("the places of its links are damaged");
-        if (kind == kLink && !is_sound_link(bytes)) return damaged("a link of the group is damaged");
-        if (kind == kSpace && !is_sound_space(bytes)) return damaged("its dimensions do not fit in its header");
-        if (kind == kSymbols && !is_sound_symbol_table(bytes)) return damaged("the names of its links are damaged");
-        if (kind == kLayout) return check_layout(bytes);
-        if (kind == kAttribute) return check_attribute(bytes);
-        if (kind != kContinuation) return;
+        if (kind == Hdf5Message::heap_table && is_extension_) has_table_ = true;
+        if (std::string damage = damage_of_hdf5_message(frame_, kind, bytes); !damage.empty()) return damaged(damage);
+        if (kind == Hdf5Message::type) return check_type(bytes);
+        if (kind == Hdf5Message::layout) return check_sources(bytes);
+        if (kind == Hdf5Message::attribute) return check_attribute(bytes);
+        if (kind != Hdf5Message::continuation) return;
         Hdf5Cursor cursor{bytes};
         const std::uint64_t address = cursor.number(frame_.address_bytes), size = cursor.number(frame_.length_bytes);
         if (!cursor.is_sound) return damaged("its header goes on nowhere");
@@ -180,64 +178,6 @@ private:
         return points;
     }
 
-    [[nodiscard]] bool is_sound_space(std::span<const std::byte> bytes) const {
-        Hdf5Cursor cursor{bytes};
-        const std::uint64_t version = cursor.number(1), rank = cursor.number(1), flags = cursor.number(1);
-        cursor.skip(version == 1 ? 5 : 1);
-        cursor.skip(rank * frame_.length_bytes * ((flags & 1) != 0 ? 2 : 1));
-        return cursor.is_sound && rank <= 32;
-    }
-
-    /// The local heap with the names of a group: HDF5 follows its list of free blocks for ever where that has no end.
-    [[nodiscard]] bool is_sound_symbol_table(std::span<const std::byte> bytes) const {
-        constexpr std::uint64_t kNoBlock = 1;
-        const std::size_t length = frame_.length_bytes;
-        Hdf5Cursor cursor{bytes};
-        cursor.skip(frame_.address_bytes);  // a tree
-        const std::uint64_t heap = cursor.number(frame_.address_bytes);
-        std::vector<std::byte> head(8 + 2 * length + frame_.address_bytes), block(2 * length);
-        if (!cursor.is_sound || !frame_.read(heap, head) || !begins_with(head, "HEAP")) return false;
-        const std::uint64_t size = hdf5_number(head, 8, length), data = hdf5_number(head, 8 + 2 * length, frame_.address_bytes);
-        if (size > frame_.rest(data)) return false;
-        std::uint64_t left = size / block.size();
-        for (std::uint64_t at = hdf5_number(head, 8 + length, length); at != kNoBlock; at = hdf5_number(block, 0, length)) {
-            if (left-- == 0 || at > size || size - at < block.size() || !frame_.read(data + at, block)) return false;
-        }
-        return true;
-    }
-
-    [[nodiscard]] bool is_nowhere(std::uint64_t address) const {
-        return address == (frame_.address_bytes == 8 ? ~std::uint64_t{0} : (std::uint64_t{1} << 8 * frame_.address_bytes) - 1);
-    }
-
-    /// Where the links of a group lie that are not in its header: nowhere, or in the file.
-    [[nodiscard]] bool is_sound_link_info(std::span<const std::byte> bytes) const {
-        Hdf5Cursor cursor{bytes};
-        cursor.skip(1);
-        const std::uint64_t flags = cursor.number(1), places = (flags & 2) != 0 ? 3 : 2;
-        if ((flags & 1) != 0) cursor.skip(8);
-        bool is_sound = true;
-        for (std::uint64_t i = 0; i < places; ++i) {
-            const std::uint64_t address = cursor.number(frame_.address_bytes);
-            is_sound = is_sound && (is_nowhere(address) || frame_.rest(address) > 0);
-        }
-        return is_sound && cursor.is_sound;
-    }
-
-    [[nodiscard]] bool is_sound_link(std::span<const std::byte> bytes) const {
-        constexpr std::uint64_t kHard = 0, kExternal = 64;
-        Hdf5Cursor cursor{bytes};
-        const std::uint64_t version = cursor.number(1), flags = cursor.number(1), kind = (flags & 8) != 0 ? cursor.number(1) : kHard;
-        cursor.skip(((flags & 4) != 0 ? 8 : 0) + ((flags & 16) != 0 ? 1 : 0));
-        cursor.skip(cursor.number(std::size_t{1} << (flags & 3)));  // the name
-        if (kind == kHard) return version == 1 && cursor.skip(frame_.address_bytes);
-        const std::uint64_t size = cursor.number(2);
-        const std::size_t begin = cursor.at;
-        if (!cursor.skip(size) || version != 1) return false;
-        const auto target = bytes.subspan(begin, static_cast<std::size_t>(size));  // a file and an object in it, behind one byte
-        return kind != kExternal || (size > 0 && std::ranges::count(target.subspan(1), std::byte{0}) >= 2);
-    }
-
     void check_attribute(std::span<const std::byte> bytes) {
         Hdf5Cursor cursor{bytes};
         const std::uint64_t version = cursor.number(1), flags = cursor.number(1), name = cursor.number(2), type = cursor.number(2),
@@ -255,7 +195,8 @@ private:
         const auto text = part(name_at, name);
         const bool is_named = std::ranges::find(text, std::byte{0}) != text.end();
         const bool has_shared_type = version > 1 && (flags & 1) != 0, has_shared_space = version > 1 && (flags & 2) != 0;
-        if (!is_named || (!has_shared_space && !is_sound_space(part(space_at, space)))) return damaged("an attribute is damaged");
+        if (!is_named || (!has_shared_space && !is_sound_hdf5_space(frame_, part(space_at, space))))
+            return damaged("an attribute is damaged");
         if (has_shared_space) check_shared(part(space_at, space));
         has_shared_type ? check_shared(part(type_at, type)) : check_type(part(type_at, type));
         if (has_shared_space || !damage_.empty()) return;
@@ -265,13 +206,13 @@ private:
             damaged("the values of an attribute do not fit in it");
     }
 
-    void check_layout(std::span<const std::byte> bytes) {
+    void check_sources(std::span<const std::byte> bytes) {
         constexpr std::uint64_t kVirtual = 3;
         Hdf5Cursor cursor{bytes};
         const std::uint64_t version = cursor.number(1), kind = cursor.number(1);
         if (version < 4 || kind != kVirtual) return;
         const std::uint64_t address = cursor.number(frame_.address_bytes), number = cursor.number(4);
-        if (cursor.is_sound && is_nowhere(address)) return;
+        if (cursor.is_sound && address == hdf5_nowhere(frame_)) return;
         const std::vector<std::byte> collection = cursor.is_sound ? read_hdf5_collection(frame_, address) : std::vector<std::byte>{};
         if (collection.empty() || !is_sound_hdf5_collection(frame_, collection) || number == 0 ||
             !is_sound_hdf5_source_list(frame_, hdf5_object(frame_, collection, number)))
