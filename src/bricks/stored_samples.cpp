@@ -12,6 +12,7 @@
 #include "bricks/brick_layout.h"
 #include "bricks/brick_part.h"
 #include "bricks/brick_samples.h"
+#include "bricks/read_progress.h"
 #include "bricks/region_growing.h"
 #include "field/require_isovalue.h"
 #include "isoatlas/error.h"
@@ -205,7 +206,8 @@ private:
         const std::vector<BrickId> missing = cache_.admit(wanted, query.held);
         try {
             take_memory(missing, context.threads);
-            query += bricks_.read(missing, context, [this](BrickId brick, std::span<const T> values) { place(brick, values); });
+            ReadProgress progress(context, missing.size());
+            query += bricks_.read(missing, context, [&](BrickId brick, auto values) { place(brick, values), progress.add(); });
         } catch (...) {
             cache_.abandon(missing);
             throw;
@@ -369,9 +371,8 @@ private:
     }
 
     void prefetch_brick(BrickId brick) {
-        constexpr std::int64_t kLine = 64 / static_cast<std::int64_t>(sizeof(T));
         const T* const place = samples() + layout_.first_sample(brick);
-        for (std::int64_t i = 0; i < layout_.samples_of_brick(); i += kLine) prefetch(place + i);
+        prefetch(place, place + layout_.samples_of_brick());
     }
     /// box: of the brick in the part that `high` belongs to.
     BrickFaces fill_brick(HighBits& high, const Box& box, BrickId brick, T min) {

@@ -2,6 +2,7 @@
 import json
 import os
 import pathlib
+import pty
 import subprocess
 import tempfile
 import unittest
@@ -65,6 +66,28 @@ class CliTest(unittest.TestCase):
         environment = {**os.environ, "PATH": path, **options.pop("environment", {})}
         return subprocess.run([CLI, *map(str, arguments)], cwd=cls.folder, stderr=subprocess.PIPE, text=True, env=environment,
                               timeout=1800 if SANITIZED else 300, **options)
+
+    def on_a_terminal(self, arguments, **environment):
+        """Standard error (and output) connected to a pseudo terminal. Returns what it showed."""
+        try:
+            leader, follower = pty.openpty()
+        except OSError as error:   # a container without /dev/pts
+            self.skipTest(f"no pseudo terminal here: {error}")
+        process = subprocess.Popen([CLI, *arguments], cwd=self.folder, stdout=follower, stderr=follower, stdin=subprocess.DEVNULL,
+                                   env=dict(os.environ, TERM="xterm", **environment))
+        os.close(follower)
+        shown = b""
+        while True:
+            try:
+                block = os.read(leader, 65536)
+            except OSError:   # Linux: the other side is closed
+                break
+            if not block:
+                break
+            shown += block
+        os.close(leader)
+        self.assertEqual(process.wait(), 0, shown)
+        return shown.decode()
 
     def run_ok(self, *arguments):
         done = self.start(arguments)

@@ -95,6 +95,12 @@ class Remote(CliTest):
             self.run_ok("extract", f"{server.address}/field.atlas", "--tau", "3", "-o", "small.ply", "--cache", "0")
             self.assertLess(server.bytes, (self.folder / "field.atlas").stat().st_size)
 
+    def test_a_slow_line_shows_how_far_it_is(self):
+        with FileServer(self.folder, round_trip=0.8) as server:  # short reads show nothing
+            shown = self.on_a_terminal(["extract", f"{server.address}/field.atlas", "--tau", "1", "-o", "slow.ply", "--threads", "1"],
+                                       XDG_CACHE_HOME=str(self.folder / "cache"))
+        self.assertRegex(shown, r"\[1/1\] read +[#.]+ +\d+ %")
+
     def test_what_was_read_is_kept_for_the_next_process(self):
         with FileServer(self.folder) as server:
             self.assert_same_surface(server)

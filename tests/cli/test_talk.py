@@ -1,7 +1,6 @@
 """Standard output holds results only; talk, progress and interrupts behave; a result that cannot be written is an error."""
 import json
 import os
-import pty
 import re
 import signal
 import subprocess
@@ -72,28 +71,6 @@ class Talk(CliTest):
         self.assertEqual(process.returncode, 130, talk)
         self.assertFalse((self.folder / "slow.json").exists())
         self.assert_no_partial()
-
-    def on_a_terminal(self, arguments, **environment):
-        """Standard error (and output) connected to a pseudo terminal. Returns what it showed."""
-        try:
-            leader, follower = pty.openpty()
-        except OSError as error:   # a container without /dev/pts
-            self.skipTest(f"no pseudo terminal here: {error}")
-        process = subprocess.Popen([CLI, *arguments], cwd=self.folder, stdout=follower, stderr=follower, stdin=subprocess.DEVNULL,
-                                   env=dict(os.environ, TERM="xterm", **environment))
-        os.close(follower)
-        shown = b""
-        while True:
-            try:
-                block = os.read(leader, 65536)
-            except OSError:   # Linux: the other side is closed
-                break
-            if not block:
-                break
-            shown += block
-        os.close(leader)
-        self.assertEqual(process.wait(), 0, shown)
-        return shown.decode()
 
     def test_progress_on_a_terminal(self):
         shown = self.on_a_terminal(["tree", "big.nrrd", "--threads", "1"])
