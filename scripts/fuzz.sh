@@ -1,8 +1,9 @@
 #!/usr/bin/env bash
 # Runs fuzz targets from their seeds for SECONDS_PER_TARGET (default 60) each, counted in time of a processor so that a busy machine runs as
 # many inputs as an idle one, one on each processor at a time: those named in FUZZ_TARGETS ("tiff zarr"; default: all). New inputs go to
-# build/fuzz/corpus, what was printed to build/fuzz/NAME.log, an input that crashes, leaks, takes 2 GiB or 20 s to build/fuzz/crashes: add it
-# to tests/fuzz/corpus once it is mended. FUZZ_RECORD=FILE appends a line for each target to a table (tests/fuzz/hours.tsv).
+# build/fuzz/corpus, what was printed to build/fuzz/NAME.log, an input that crashes, leaks, takes 2 GiB or a minute to build/fuzz/crashes: add it
+# to tests/fuzz/corpus once it is mended. tests/fuzz/NAME.flags: of libFuzzer. FUZZ_RECORD=FILE appends a line for each target to a table
+# (tests/fuzz/hours.tsv).
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
@@ -19,6 +20,7 @@ run_target() {
     mkdir -p "${folders[0]}"
     if [[ -d tests/fuzz/corpus/$name ]]; then folders+=(tests/fuzz/corpus/"$name"); fi
     if [[ -f $words ]]; then options+=(-dict="$words"); fi
+    if [[ -f tests/fuzz/$name.flags ]]; then mapfile -t -O "${#options[@]}" options < tests/fuzz/"$name".flags; fi
     # One allocation may be larger than all that is used: libhdf5 asks for what a damaged length says, and then reads less.
     "$program" "${options[@]}" -rss_limit_mb=2048 -malloc_limit_mb=8192 -timeout=60 -print_final_stats=1 -artifact_prefix=build/fuzz/crashes/"$name"- \
         "${folders[@]}" > "$log" 2>&1 &
