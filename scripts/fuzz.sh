@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
 # Runs fuzz targets from their seeds for SECONDS_PER_TARGET (default 60) each, counted in time of a processor so that a busy machine runs as
 # many inputs as an idle one, one on each processor at a time: those named in FUZZ_TARGETS ("tiff zarr"; default: all). New inputs go to
-# build/fuzz/corpus, what was printed to build/fuzz/NAME.log, an input that crashes, leaks, takes 2 GiB or a minute to build/fuzz/crashes: add it
-# to tests/fuzz/corpus once it is mended. tests/fuzz/NAME.flags: of libFuzzer. FUZZ_RECORD=FILE appends a line for each target to a table
-# (tests/fuzz/hours.tsv).
+# build/fuzz/corpus, what was printed to build/fuzz/NAME.log, an input that crashes, leaks, takes 2 GiB or a minute to build/fuzz/crashes:
+# add it to tests/fuzz/corpus once it is mended. tests/fuzz/NAME.flags: of libFuzzer, one a line. FUZZ_RECORD=FILE appends a line for each
+# target to a table (tests/fuzz/hours.tsv).
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
