@@ -158,8 +158,12 @@ def test_virtual_and_external_storage(tmp_path):
     with h5py.File(tmp_path / "v.h5", "w") as file:
         file.create_virtual_dataset("v", layout)
     assert np.array_equal(read(tmp_path / "v.h5").volume, np.stack(parts))
+    with h5py.File(tmp_path / "1.h5", "a") as file:
+        file.move("p", "q")
+    with pytest.raises(isoatlas.InputError, match="1.h5:p"):   # h5py gives zeros
+        read(tmp_path / "v.h5").volume
     (tmp_path / "1.h5").unlink()
-    with pytest.raises(isoatlas.InputError, match="1.h5"):   # h5py gives zeros
+    with pytest.raises(isoatlas.InputError, match="1.h5"):   # here, too
         read(tmp_path / "v.h5").volume
     (tmp_path / "raw").write_bytes(bytes(range(60)))
     with h5py.File(tmp_path / "e.h5", "w") as file:

@@ -1,6 +1,5 @@
 #include "formats/volume/hdf5_virtual.h"
 
-#include <algorithm>
 #include <array>
 #include <set>
 #include <tuple>
@@ -9,12 +8,13 @@
 
 #include "formats/common/byte_source.h"
 #include "formats/common/file_access.h"
+#include "isoatlas/text.h"
 
 namespace isoatlas {
 namespace {
 
-constexpr int kDeepestSource = 8;  // sources of sources
-constexpr std::size_t kMostVirtualSources = 65536;
+constexpr int kDeepestSource = 8;            // sources of sources
+constexpr std::size_t kMostNumbers = 65536;  // of a series of sources
 
 std::string name_of_file(hid_t file) {
     std::array<char, 4096> name{};
@@ -61,15 +61,17 @@ private:
         const std::string header = name_of_file(own);
         Hdf5Handle other;  // the last file beside, as many sources in a row lie in one
         std::string name_of_other;
-        for (std::size_t i = 0; i < std::min(count, kMostVirtualSources); ++i) {
+        for (std::size_t i = 0; i < count; ++i) {
             const std::string files = text_of(H5Pget_virtual_filename, creation, i), sets = text_of(H5Pget_virtual_dsetname, creation, i);
-            for (std::size_t number = 0; number < kMostVirtualSources; ++number) {
+            for (std::size_t number = 0; number < kMostNumbers; ++number) {
                 const auto [file, many_files] = with_number(files, number);
                 const auto [set, many_sets] = with_number(sets, number);
                 const bool is_own = file == ".";
                 if (!is_own && std::exchange(name_of_other, file) != file) other = open(header, file, many_files);
                 const hid_t in = is_own ? hid_t{own} : hid_t{other};
-                if (in < 0 || !check_source(in, set, creation, i, depth) || !(many_files || many_sets)) break;
+                const bool is_there = in >= 0 && check_source(in, set, creation, i, depth), is_series = many_files || many_sets;
+                if (!is_there && !is_series) data_.fail(path_, "a source is not there: " + shown_name(file + ":" + set));
+                if (!is_there || !is_series) break;
             }
         }
     }
