@@ -95,6 +95,28 @@ void hits_stay_within_the_deviation() {
     }
 }
 
+/// How much farther from a front hits of the exact surface are seen than it says, of every so manieth; 0: nowhere. Seen from all around.
+double unseen_by(const FrontSurface& front, const isoatlas::Volume& volume, double tau, const FrontOptions& options,
+                 isoatlas::Interpolant interpolant, std::size_t every) {
+    isoatlas::Volume in_voxels = volume;
+    in_voxels.info.geometry = {};
+    const Surface exact = extract(in_voxels, tau, {.interpolant = interpolant});
+    const isoatlas::SeenLengths all_around({.eye = options.from->eye, .pixel = options.from->pixel, .near = options.from->near});
+    const auto point = [&](std::int64_t i) { return front.surface.points[static_cast<std::size_t>(i)]; };
+    double farther = 0;
+    for (std::size_t i = 0; i < exact.points.size(); i += every) {
+        const Vec3& voxel = exact.points[static_cast<std::int64_t>(i)];
+        if (!is_hit(voxel)) continue;
+        const Vec3 p = to_physical(volume.info.geometry, voxel);
+        double nearest = kInfinity;
+        for (const auto& t : front.surface.triangles)
+            nearest = std::min(nearest, isoatlas::squared_distance(p, point(t[0]), point(t[1]), point(t[2])));
+        const double pixels = all_around.pixels(std::sqrt(nearest), p, 0), unseen = options.from->cone ? 16 : 1;
+        farther = std::max(farther, pixels - unseen * front.pixels - 1e-6);
+    }
+    return farther;
+}
+
 /// On any axes, whatever they mean.
 void hits_are_seen_within_the_pixels() {
     const CoarseCase c;
@@ -107,20 +129,7 @@ void hits_are_seen_within_the_pixels() {
     const FrontSurface front = extract_front(c.volume, c.exact.tau, options, {.interpolant = c.exact.interpolant});
     RC_ASSERT(front.pixels <= options.pixels);
     RC_ASSERT(component_numbers(front.surface) == component_numbers(c.exact));
-    isoatlas::Volume in_voxels = c.volume;
-    in_voxels.info.geometry = {};
-    const Surface exact = extract(in_voxels, c.exact.tau, {.interpolant = c.exact.interpolant});
-    const isoatlas::SeenLengths all_around({.eye = options.from->eye, .pixel = options.from->pixel, .near = options.from->near});
-    const auto point = [&](std::int64_t i) { return front.surface.points[static_cast<std::size_t>(i)]; };
-    for (const Vec3& voxel : exact.points) {
-        if (!is_hit(voxel)) continue;
-        const Vec3 p = to_physical(c.volume.info.geometry, voxel);
-        double nearest = kInfinity;
-        for (const auto& t : front.surface.triangles)
-            nearest = std::min(nearest, isoatlas::squared_distance(p, point(t[0]), point(t[1]), point(t[2])));
-        const double pixels = all_around.pixels(std::sqrt(nearest), p, 0), unseen = options.from->cone ? 16 : 1;
-        RC_ASSERT(pixels <= unseen * front.pixels + 1e-6);
-    }
+    RC_ASSERT(unseen_by(front, c.volume, c.exact.tau, options, c.exact.interpolant, 1) == 0);
 }
 
 void regions_of_interest_are_exact() {
@@ -244,6 +253,29 @@ TEST(OctreeFronts, OfSharedVolumesHold) {
         }
         std::cout << of.volume << " at " << of.tau << ": " << exact.triangles.size() << " -> " << least << " triangles, " << fronts
                   << " fronts\n";
+    });
+    if (!are_there) GTEST_SKIP() << "no shared data beside the checkout";
+}
+
+/// From far in front of them, and from a corner; a pixel is a thousandth of the distance.
+TEST(OctreeFronts, OfSharedVolumesAreSeenWithinTheirPixels) {
+    const bool are_there = for_shared_surfaces(4, 1, [](const SharedSurface& of, const isoatlas::Volume& volume, int) {
+        const Surface exact = isoatlas::extract(volume, of.tau);
+        const isoatlas::Index3& size = volume.info.extent.size;
+        const auto voxel = [&](double x, double y, double z) {
+            return to_physical(volume.info.geometry,
+                               {x * static_cast<double>(size[0]), y * static_cast<double>(size[1]), z * static_cast<double>(size[2])});
+        };
+        const Vec3 far = voxel(0.5, 0.5, -8);
+        for (const Vec3& eye : {far, voxel(0, 0, 0)}) {
+            const FrontOptions options{.max_level = 5, .from = isoatlas::Viewpoint{.eye = eye, .pixel = 0.001, .near = 1}};
+            const FrontSurface front = extract_front(volume, of.tau, options, {.interpolant = exact.interpolant});
+            EXPECT_LE(front.pixels, 1);
+            const double most = eye == far ? 1 : 1.05;  // of the triangles of the exact surface
+            EXPECT_LT(static_cast<double>(front.surface.triangles.size()), most * static_cast<double>(exact.triangles.size())) << of.volume;
+            EXPECT_EQ(component_numbers(front.surface), component_numbers(exact)) << of.volume << " at " << of.tau;
+            EXPECT_EQ(unseen_by(front, volume, of.tau, options, exact.interpolant, exact.points.size() / 300 + 1), 0) << of.volume;
+        }
     });
     if (!are_there) GTEST_SKIP() << "no shared data beside the checkout";
 }
