@@ -175,6 +175,16 @@ def test_virtual_and_external_storage(tmp_path):
         read(tmp_path / "e.h5").volume
 
 
+@pytest.mark.parametrize("persist", [False, True])
+def test_file_space_strategies(persist, tmp_path):
+    """What of the file is free is kept in a message of the superblock's extension."""
+    array = np.arange(60, dtype="u1").reshape(3, 4, 5)
+    with h5py.File(tmp_path / "v.h5", "w", libver="latest", fs_strategy="page", fs_persist=persist, fs_threshold=16, fs_page_size=4096) as file:
+        file["gone"], file["v"] = array, array
+        del file["gone"]
+    assert np.array_equal(read(tmp_path / "v.h5").volume, array)
+
+
 def virtual(path, name, source, file="."):
     """An array of 1 x 4 x 5 that is another one."""
     layout = h5py.VirtualLayout((1, 4, 5), "u1")

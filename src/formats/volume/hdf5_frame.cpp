@@ -49,9 +49,10 @@ std::optional<Hdf5Frame> hdf5_frame_of(File& file) {
         if (std::memcmp(bytes.data(), kSignature.data(), kSignature.size()) != 0) continue;
         const std::uint64_t version = hdf5_number(bytes, 8, 1);
         const std::size_t sizes = version < 2 ? 13 : 9;
-        Hdf5Frame frame{
-            &file, at, static_cast<std::size_t>(hdf5_number(bytes, sizes, 1)), static_cast<std::size_t>(hdf5_number(bytes, sizes + 1, 1)),
-            {},    0};
+        Hdf5Frame frame{.file = &file,
+                        .base = at,
+                        .address_bytes = static_cast<std::size_t>(hdf5_number(bytes, sizes, 1)),
+                        .length_bytes = static_cast<std::size_t>(hdf5_number(bytes, sizes + 1, 1))};
         const auto is_known = [](std::size_t count) { return count == 2 || count == 4 || count == 8; };
         if (!is_known(frame.address_bytes) || !is_known(frame.length_bytes)) return std::nullopt;
         if (!read_addresses(frame, version)) return std::nullopt;

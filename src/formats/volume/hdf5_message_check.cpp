@@ -151,6 +151,16 @@ bool is_sound_layout(const Hdf5Frame& frame, Bytes bytes) {
     }
 }
 
+/// What of the file is free: heaps for six or twelve kinds of space.
+bool is_sound_file_space(const Hdf5Frame& frame, Bytes bytes) {
+    Hdf5Cursor cursor{bytes};
+    const std::uint64_t version = cursor.number(1);
+    cursor.skip(1);
+    if (version == 0) return cursor.skip(frame.length_bytes + 6 * frame.address_bytes);
+    const bool is_kept = cursor.number(1) != 0;
+    return cursor.skip(2 * frame.length_bytes + 2 + (is_kept ? 13 : 1) * frame.address_bytes);
+}
+
 bool has_end(Bytes text) { return std::ranges::find(text, std::byte{0}) != text.end(); }
 
 }  // namespace
@@ -189,6 +199,8 @@ std::string damage_of_hdf5_message(const Hdf5Frame& frame, Hdf5Message kind, Byt
         case Hdf5Message::sizes_of_trees: return unless(has(bytes, 7), short_one);
         case Hdf5Message::driver: return unless(cursor.skip(9) && cursor.skip(cursor.number(2)), short_one);
         case Hdf5Message::references: return unless(has(bytes, 5), short_one);
+        case Hdf5Message::file_space: return unless(is_sound_file_space(frame, bytes), short_one);
+        case Hdf5Message::cache_image: return unless(has(bytes, 1 + frame.address_bytes + frame.length_bytes), short_one);
         case Hdf5Message::type:
         case Hdf5Message::attribute:
         case Hdf5Message::continuation: break;

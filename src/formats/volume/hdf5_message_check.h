@@ -33,6 +33,8 @@ enum class Hdf5Message : std::uint8_t {
     driver = 20,
     places_of_attributes = 21,
     references = 22,
+    file_space = 23,
+    cache_image = 24,
 };
 
 /// What of a message does not lie in it, or of what it refers to in heaps of names; "": nothing, or another function checks the kind

@@ -88,6 +88,8 @@ TEST(Hdf5Check, NoPrefixOfAMessageIsSound) {
         {Hdf5Message::time, eight},
         {Hdf5Message::driver, bytes_of({0}, "NCSAfami") + bytes_of({2, 0, 7, 7})},
         {Hdf5Message::references, zeros(5)},
+        {Hdf5Message::file_space, bytes_of({1, 1, 1}) + zeros(16 + 2 + 13 * 8)},
+        {Hdf5Message::cache_image, zeros(17)},
     };
     for (const auto& [kind, whole] : messages) {
         EXPECT_EQ(damage_of_hdf5_message(frame, kind, whole), "") << static_cast<int>(kind);
