@@ -139,6 +139,8 @@ private:
         for (std::int64_t left = list(kDimensionTag, "dimensions"); left > 0; --left) {
             const std::string given = name("a dimension");
             const std::int64_t size = count("a dimension");
+            if (size == 0 && std::ranges::any_of(dimensions, &NetcdfDimension::is_unlimited))
+                cursor_.fail_at_offset(shown_name(given) + " is a second dimension of records");
             dimensions.push_back({given, size, size == 0});
         }
     }
@@ -166,6 +168,8 @@ private:
             for (std::int64_t rank = count("a variable"); rank > 0; --rank) {
                 const std::int64_t d = count("a dimension of a variable");
                 if (d >= static_cast<std::int64_t>(dimensions.size())) cursor_.fail_at_offset("there is no dimension " + std::to_string(d));
+                if (dimensions[static_cast<std::size_t>(d)].is_unlimited && !variable.dimensions.empty())
+                    cursor_.fail_at_offset("the records of " + shown_name(variable.path) + " are not its first dimension");
                 variable.dimensions.push_back(static_cast<std::size_t>(d));
             }
             own.attributes = read_attributes();

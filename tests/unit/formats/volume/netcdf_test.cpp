@@ -119,6 +119,18 @@ private:
     std::vector<Variable> variables_;
 };
 
+TEST(Netcdf, RecordsAreTheFirstDimensionAlone) {
+    const test::TestFolder folder;
+    NetcdfMaker last;
+    const int x = last.dimension("x", 3), time = last.dimension("time", 0);
+    last.variable("v", {x, time}, 1, test::telling_bytes(6));
+    expect_helpful(failure_of_loading(folder.write("last.nc", last.bytes(2))), ErrorKind::input, "first dimension");
+    NetcdfMaker two;
+    const int one = two.dimension("one", 0), other = two.dimension("other", 0);
+    two.variable("v", {one}, 1, test::telling_bytes(2)), two.variable("w", {other}, 1, test::telling_bytes(2));
+    expect_helpful(failure_of_loading(folder.write("two.nc", two.bytes(2))), ErrorKind::input, "second dimension of records");
+}
+
 TEST(Netcdf, EveryTypeAndVersion) {
     const test::TestFolder folder;
     const std::pair<int, ValueType> types[] = {{1, ValueType::i8},  {3, ValueType::i16}, {4, ValueType::i32}, {5, ValueType::f32},
