@@ -25,8 +25,10 @@ gdcm::SmartPointer<gdcm::Image> gdcm_image(const std::string& syntax, const Dico
     image->SetDimension(0, static_cast<unsigned>(pixels.columns));
     image->SetDimension(1, static_cast<unsigned>(pixels.rows));
     const auto bits = [](int count) { return static_cast<unsigned short>(count); };
-    image->SetPixelFormat(
-        gdcm::PixelFormat(1, bits(pixels.allocated), bits(pixels.stored), bits(pixels.high_bit), pixels.is_signed ? 1 : 0));
+    // Of 8 bits GDCM demands that all are stored; the others are left out of what it decodes (formats/volume/dicom_pixels.cpp).
+    const bool is_byte = pixels.allocated == 8;
+    image->SetPixelFormat(gdcm::PixelFormat(1, bits(pixels.allocated), bits(is_byte ? 8 : pixels.stored),
+                                            bits(is_byte ? 7 : pixels.high_bit), pixels.is_signed ? 1 : 0));
     image->SetPhotometricInterpretation(gdcm::PhotometricInterpretation::MONOCHROME2);
     image->SetTransferSyntax(gdcm::TransferSyntax::GetTSType(syntax.c_str()));
     gdcm::Fragment fragment;
