@@ -15,7 +15,8 @@
 //          on one thread: what is left of reading if decoding and checking cost nothing
 //   reading  so many samples as are classified, from memory, nothing else
 //   exact  the whole surface, samples there                  front  the same as an octree front, of a query without a step before
-//   step   from the isovalue before to this one              fresh  the query at this one of a store that holds no bricks
+//   step   from the isovalue before to this one, and of it the phases; classes: before the first
+//   fresh  the query at this one of a store that holds no bricks
 // compare_vtk.py runs all this beside VTK's Flying Edges on the same volume.
 #include <isoatlas/isoatlas.h>
 
@@ -245,7 +246,10 @@ ordered_json measure_fronts(const Arguments& arguments) {
         const double exact = seconds_of([&] { surface = atlas.extract(tau, options, arguments.context); });
         const double fresh = seconds_of([&] { coarse = atlas.extract_front(tau, front, options, arguments.context); });
         PhaseClock clock;
-        const double by_step = seconds_of([&] { stepped = navigator.extract_front(tau, front, clock.watched(arguments.context)); });
+        const double by_step = seconds_of([&] {
+            stepped = navigator.extract_front(tau, front, clock.watched(arguments.context));
+            (void)clock.phases();  // ends the last one
+        });
         if (stepped.surface.triangles != coarse.surface.triangles || stepped.surface.points != coarse.surface.points)
             throw std::runtime_error("a front is another one after a step");
         if (i < 0) continue;
