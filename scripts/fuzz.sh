@@ -22,8 +22,8 @@ run_target() {
     if [[ -f $words ]]; then options+=(-dict="$words"); fi
     if [[ -f tests/fuzz/$name.flags ]]; then mapfile -t -O "${#options[@]}" options < tests/fuzz/"$name".flags; fi
     # One allocation may be larger than all that is used: libhdf5 asks for what a damaged length says, and then reads less.
-    "$program" "${options[@]}" -rss_limit_mb=2048 -malloc_limit_mb=8192 -timeout=60 -print_final_stats=1 -artifact_prefix=build/fuzz/crashes/"$name"- \
-        "${folders[@]}" > "$log" 2>&1 &
+    options+=(-rss_limit_mb=2048 -malloc_limit_mb=8192 -timeout=60 -print_final_stats=1)
+    "$program" "${options[@]}" -artifact_prefix=build/fuzz/crashes/"$name"- "${folders[@]}" > "$log" 2>&1 &
     local process=$! taken=0 now inputs coverage
     while now=$(processor_seconds "$process") && [[ -n $now ]]; do
         taken=$now

@@ -178,8 +178,6 @@ Hdf5File::Hdf5File(const std::string& path, bool follow_links) : data_(std::make
     data_->file = {H5Fopen(path.c_str(), H5F_ACC_RDONLY, properties), H5Fclose};
     if (data_->file < 0) data_->fail("superblock", "HDF5 cannot open the file");
     data_->links = {H5Pcreate(H5P_LINK_ACCESS), H5Pclose};
-    Hdf5Info info{};
-    (void)data_->find("/", info);
 }
 
 Hdf5File::~Hdf5File() {

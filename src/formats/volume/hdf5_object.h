@@ -25,7 +25,8 @@ struct Hdf5File::Data {
 
     /// What is damaged in the header of an object, so that HDF5 must not open it or its attributes; "": nothing, or it is not there.
     [[nodiscard]] std::string damage(const std::string& object);
-    /// Follows a path, group by group, none of which may be damaged: Error{input}. false: it leads nowhere.
+    /// Follows a path, group by group, none of which may be damaged: Error{input}. false: it leads nowhere. The first group of a file was
+    /// checked when that was opened (formats/volume/hdf5_driver.cpp).
     [[nodiscard]] bool find(const std::string& object, Hdf5Info& info) { return find(file, object, info); }
     /// The same in another file.
     [[nodiscard]] bool find(hid_t in, const std::string& object, Hdf5Info& info);
