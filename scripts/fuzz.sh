@@ -12,10 +12,11 @@ processor_seconds() {
     awk '{ print int(($14 + $15) / ticks) }' ticks="$(getconf CLK_TCK)" "/proc/$1/stat" 2>/dev/null || true
 }
 
-# Runs one target; prints a line for it.
+# Runs one target; prints a line for it. A third argument tells processes of one target apart that run at the same time: they share what
+# they find.
 run_target() {
     local name=$1 seconds=$2 program=build/fuzz/tests/fuzz/$1_fuzz result="no finding" commit
-    local folders=(build/fuzz/corpus/"$name") options=() words=tests/fuzz/$name.dict log=build/fuzz/$name.log
+    local folders=(build/fuzz/corpus/"$name") options=() words=tests/fuzz/$name.dict log=build/fuzz/$name${3:+.$3}.log
     commit=$(git rev-parse --short=8 HEAD)
     mkdir -p "${folders[0]}"
     if [[ -d tests/fuzz/corpus/$name ]]; then folders+=(tests/fuzz/corpus/"$name"); fi
@@ -45,7 +46,7 @@ run_target() {
 }
 
 if [[ ${1:-} == --target ]]; then
-    run_target "$2" "$3"
+    run_target "${@:2}"
     exit
 fi
 scripts/bootstrap.sh fuzz

@@ -19,6 +19,7 @@ PICTURES, PAGES = ["src/render"], "src/features src/catalogue src/page src/previ
 MEASURED = {
     "engine": ENGINE, "phases": ENGINE, "scale-analysis": ENGINE, "extract": SURFACES, "scale-extract": SURFACES,
     "store-builds": BUILDS, "store-phases": BUILDS, "store-surfaces": STORES, "store-objects": STORES, "scale-stores": BUILDS, "store-decoding": ["src/codec"], "fronts": STORES + ["src/octree_front"],
+    "simplify": SURFACES + ["src/level_of_detail"],
     "render": PICTURES, "scale-render": PICTURES, "pages": PAGES, "scale-pages": PAGES,
     "formats": ["src/formats/volume", "src/formats/zarr", "src/formats/common"], "python-surfaces": ["python"], "python-facts": ["python"],
     "methods": ["src/methods/search", "src/methods/disk"],

@@ -28,18 +28,19 @@ inline constexpr std::array<SharedSurface, 11> kSharedSurfaces{{{"fuel", 50, tru
                                                                 {"bonsai", 40, false},
                                                                 {"bonsai", 120, false}}};
 
-/// Calls use(surface, volume, how many variants to check): `few` of the small surfaces, or `many` of all with ISOATLAS_ALL_DATA=1.
-/// False: there is no shared data.
+/// Calls use(surface, volume, how many variants to check): `few` of the small surfaces, or `many` of all with ISOATLAS_ALL_DATA=1, of one
+/// volume with its name for 1. False: there is no shared data.
 template <class Use>
 bool for_shared_surfaces(int few, int many, const Use& use) {
     const std::filesystem::path data = std::filesystem::path(ISOATLAS_SOURCE_DIR).parent_path() / "shared" / "data";
     if (!std::filesystem::is_directory(data)) return false;
-    const bool all = std::getenv("ISOATLAS_ALL_DATA") != nullptr;
+    const char* chosen = std::getenv("ISOATLAS_ALL_DATA");
+    const std::string wanted = chosen == nullptr ? "" : chosen;
     for (const SharedSurface& surface : kSharedSurfaces) {
-        if (!all && !surface.is_small) continue;
         const std::string name = surface.volume;
+        if (wanted.empty() ? !surface.is_small : wanted != "1" && wanted != name) continue;
         const auto reader = isoatlas::open_volume((data / name / (name + ".nrrd")).string(), {});
-        use(surface, load_volume(*reader), all ? many : few);
+        use(surface, load_volume(*reader), wanted.empty() ? few : many);
     }
     return true;
 }

@@ -73,16 +73,16 @@ bool skip_vdb_transform(VdbCursor& cursor) {
                                                                         {"TranslationMap", 3},
                                                                         {"ScaleTranslateMap", 18},
                                                                         {"UniformScaleTranslateMap", 18}}};
-    const std::string name = cursor.text();
-    if (name == "NonlinearFrustumMap") {
+    std::string name = cursor.text();
+    const bool is_frustum = name == "NonlinearFrustumMap";
+    if (is_frustum) {
         cursor.skip(8 * 8);  // box, taper, depth
-        static_cast<void>(skip_vdb_transform(cursor));
-        return true;
+        name = cursor.text();  // of the linear one in it
     }
     for (const auto& [known, numbers] : kNumbers) {
         if (name != known) continue;
         cursor.skip(numbers * 8);
-        return false;
+        return is_frustum;
     }
     cursor.refuse("it has no transform of the name " + shown_name(name));
 }

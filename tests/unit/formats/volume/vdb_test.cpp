@@ -113,6 +113,12 @@ TEST(Vdb, FormsOfValues) {
     EXPECT_EQ(instance->info().geometry.origin, (Vec3{1, 2, 3}));
     expect_helpful(test::failure_of_loading(folder.write("v.vdb", seed("vectors")) + ":/v"), ErrorKind::unsupported, "vec3s");
     expect_helpful(test::failure_of_loading(folder.write("f.vdb", seed("frustum"))), ErrorKind::unsupported, "frustum");
+    std::string nested = seed("frustum"), frustums;
+    const std::size_t linear = nested.find(std::string("\x09\0\0\0AffineMap", 13));
+    ASSERT_NE(linear, std::string::npos);
+    for (int i = 0; i < 200'000; ++i) frustums += std::string("\x13\0\0\0NonlinearFrustumMap", 23) + std::string(64, '\0');
+    nested.insert(linear, frustums);
+    expect_helpful(test::failure_of_loading(folder.write("d.vdb", nested)), ErrorKind::input, "no transform of the name");
     std::string newer = seed("leaf");
     newer[8] = static_cast<char>(newer[8] + 1);
     expect_helpful(test::failure_of_loading(folder.write("n.vdb", newer)), ErrorKind::unsupported, "version 225");
