@@ -8,6 +8,7 @@
 #include <limits>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <utility>
 
@@ -145,11 +146,11 @@ std::unique_ptr<ByteSource> open_array(const AmiraHeader& header, const AmiraArr
 /// The arrays on the lattice; `choices` are their paths.
 std::vector<const AmiraArray*> lattice_arrays(const AmiraHeader& header, std::vector<ErrorChoice>& choices) {
     std::vector<const AmiraArray*> arrays;
+    std::set<std::string> words;
     for (const AmiraArray& array : header.arrays) {
         if (array.location != kLattice) continue;
         std::string word = "/" + shown_name(array.name);
-        if (std::ranges::any_of(choices, [&](const ErrorChoice& other) { return other.word == word; }))
-            word += "@" + std::to_string(array.section);
+        if (!words.insert(word).second) word += "@" + std::to_string(array.section);
         choices.push_back({word, printable(array.type) + (array.components > 1 ? "[" + std::to_string(array.components) + "]" : "")});
         arrays.push_back(&array);
     }
