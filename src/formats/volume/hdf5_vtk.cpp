@@ -62,6 +62,7 @@ struct VtkChoices {
 };
 
 VtkChoices vtk_choices(const Hdf5File& file, const VtkImage& image) {
+    constexpr std::size_t kShownBytes = 200;
     VtkChoices found;
     for (const bool cells : {false, true}) {
         const std::string group = std::string(kVtkRoot) + (cells ? "/CellData" : "/PointData");
@@ -71,7 +72,7 @@ VtkChoices vtk_choices(const Hdf5File& file, const VtkImage& image) {
             const Hdf5Array array = file.array(path);
             if (fits_image(array, image, cells))
                 found.choices.push_back({path, shape_of(array) + (cells ? ", of the cells" : "")});
-            else
+            else if (found.others.size() < kShownBytes)
                 found.others += (found.others.empty() ? "" : ", ") + in_quotes(name);
         }
         if (!found.choices.empty()) break;  // arrays of cells only where there are none of points, as in other files of VTK

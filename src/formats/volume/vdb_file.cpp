@@ -76,7 +76,7 @@ bool skip_vdb_transform(VdbCursor& cursor) {
     std::string name = cursor.text();
     const bool is_frustum = name == "NonlinearFrustumMap";
     if (is_frustum) {
-        cursor.skip(8 * 8);  // box, taper, depth
+        cursor.skip(8 * 8);    // box, taper, depth
         name = cursor.text();  // of the linear one in it
     }
     for (const auto& [known, numbers] : kNumbers) {

@@ -36,6 +36,8 @@ public:
     }
     [[nodiscard]] std::string operator/(const std::string& name) const { return (path_ / name).string(); }
     std::string write(const std::string& name, const std::string& content) const {
+        std::error_code ignored;
+        std::filesystem::remove(path_ / name, ignored);  // a file that is cut to nothing and written again goes to the disk at once
         std::ofstream file(path_ / name, std::ios::binary);
         file.write(content.data(), static_cast<std::streamsize>(content.size()));
         file.close();
