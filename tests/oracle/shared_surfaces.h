@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdlib>
 #include <filesystem>
+#include <stdexcept>
 #include <string>
 
 #include "isoatlas/volume.h"
@@ -36,12 +37,15 @@ bool for_shared_surfaces(int few, int many, const Use& use) {
     if (!std::filesystem::is_directory(data)) return false;
     const char* chosen = std::getenv("ISOATLAS_ALL_DATA");
     const std::string wanted = chosen == nullptr ? "" : chosen;
+    bool is_found = false;
     for (const SharedSurface& surface : kSharedSurfaces) {
         const std::string name = surface.volume;
         if (wanted.empty() ? !surface.is_small : wanted != "1" && wanted != name) continue;
+        is_found = true;
         const auto reader = isoatlas::open_volume((data / name / (name + ".nrrd")).string(), {});
         use(surface, load_volume(*reader), wanted.empty() ? few : many);
     }
+    if (!is_found) throw std::runtime_error("ISOATLAS_ALL_DATA is neither 1 nor one of the volumes: " + wanted);
     return true;
 }
 
