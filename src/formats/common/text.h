@@ -1,7 +1,9 @@
 // Parses words and numbers of text headers. Numbers are independent of the locale and must span the whole word.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -21,6 +23,19 @@ namespace isoatlas {
 [[nodiscard]] std::string printable(std::string_view text);
 /// printable() in quotes, shortened, for messages.
 [[nodiscard]] std::string in_quotes(std::string_view text);
+/// "a, b, c", and ", ..." where there are more than a message should name. Shown: what a message says of each, as text.
+template <class List, class Shown>
+[[nodiscard]] std::string first_of(const List& list, const Shown& shown) {
+    constexpr std::size_t kMost = 20;
+    std::string text;
+    std::size_t count = 0;
+    for (const auto& one : list) {
+        if (count == kMost) return text + ", ...";
+        if (count++ > 0) text += ", ";
+        text += std::invoke(shown, one);
+    }
+    return text;
+}
 /// `name` beside `path`: names are relative to the folder of the header that contains them.
 [[nodiscard]] std::string beside(const std::string& path, std::string_view name);
 

@@ -9,21 +9,11 @@
 namespace isoatlas {
 namespace {
 
-constexpr std::size_t kShownChoices = 20;
-
-std::string list_of(std::span<const ErrorChoice> choices) {
-    std::string text;
-    for (const ErrorChoice& choice : choices.first(std::min(choices.size(), kShownChoices)))
-        text += (text.empty() ? "" : ", ") + choice.word;
-    if (choices.size() > kShownChoices) text += ", ...";
-    return text;
-}
-
 [[noreturn]] void refuse(const std::string& path, const std::string& what, std::span<const ErrorChoice> choices, const std::string& next,
                          Reason reason) {
     throw Error(ErrorKind::usage, {.file = path,
                                    .what = what,
-                                   .expected = (choices.size() == 1 ? "" : "one of ") + list_of(choices),
+                                   .expected = (choices.size() == 1 ? "" : "one of ") + first_of(choices, &ErrorChoice::word),
                                    .next = next,
                                    .reason = reason,
                                    .choices = {choices.begin(), choices.end()}});

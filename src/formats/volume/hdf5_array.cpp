@@ -38,10 +38,8 @@ std::vector<ErrorChoice> choices_of(const std::vector<Hdf5Array>& arrays) {
 }
 
 [[noreturn]] void no_arrays(const std::string& path, const std::vector<Hdf5Array>& arrays) {
-    std::string others;
-    for (const Hdf5Array& array : arrays) {
-        if (others.size() < 200) others += (others.empty() ? "" : ", ") + shown_name(array.path) + " (" + shape_of(array) + ")";
-    }
+    const std::string others =
+        first_of(arrays, [](const Hdf5Array& array) { return shown_name(array.path) + " (" + shape_of(array) + ")"; });
     throw Error(ErrorKind::unsupported, {.file = path,
                                          .what = "has no dataset of 2 or 3 dimensions with more than one sample along each" +
                                                  (others.empty() ? "" : "; it has " + others),

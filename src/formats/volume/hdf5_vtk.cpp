@@ -58,11 +58,10 @@ bool fits_image(const Hdf5Array& array, const VtkImage& image, bool cells) {
 
 struct VtkChoices {
     std::vector<ErrorChoice> choices{};
-    std::string others{};  ///< arrays with several numbers for each sample
+    std::vector<std::string> others{};  ///< arrays with several numbers for each sample
 };
 
 VtkChoices vtk_choices(const Hdf5File& file, const VtkImage& image) {
-    constexpr std::size_t kShownBytes = 200;
     VtkChoices found;
     for (const bool cells : {false, true}) {
         const std::string group = std::string(kVtkRoot) + (cells ? "/CellData" : "/PointData");
@@ -72,8 +71,8 @@ VtkChoices vtk_choices(const Hdf5File& file, const VtkImage& image) {
             const Hdf5Array array = file.array(path);
             if (fits_image(array, image, cells))
                 found.choices.push_back({path, shape_of(array) + (cells ? ", of the cells" : "")});
-            else if (found.others.size() < kShownBytes)
-                found.others += (found.others.empty() ? "" : ", ") + in_quotes(name);
+            else
+                found.others.push_back(name);
         }
         if (!found.choices.empty()) break;  // arrays of cells only where there are none of points, as in other files of VTK
     }
@@ -149,7 +148,7 @@ std::unique_ptr<VolumeReader> open_vtkhdf_image(const Hdf5Request& request) {
         throw Error(ErrorKind::unsupported, {.file = request.path(),
                                              .where = "/VTKHDF",
                                              .what = "has no array with one number for each point or cell" +
-                                                     (found.others.empty() ? "" : "; it has " + found.others),
+                                                     (found.others.empty() ? "" : "; it has " + first_of(found.others, in_quotes)),
                                              .expected = "8 to 32 bit integers, float32 or float64",
                                              .next = "save one component, e.g. in ParaView with the filter Calculator"});
     }

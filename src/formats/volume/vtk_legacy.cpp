@@ -1,9 +1,7 @@
 // Legacy VTK files (.vtk): STRUCTURED_POINTS and RECTILINEAR_GRID, text and binary; the first array with one number for each point, or
 // for each cell where no array has one for each point.
-#include <algorithm>
 #include <array>
 #include <cmath>
-#include <span>
 #include <string_view>
 #include <utility>
 
@@ -50,11 +48,7 @@ void set_regular_geometry(const VtkLegacyFile& file, bool cells, VolumeInfo& inf
 }
 
 [[noreturn]] void no_samples(const VtkLegacyFile& file) {
-    constexpr std::size_t kShownNames = 20;
-    std::string names;
-    for (const std::string& name : std::span(file.others).first(std::min(file.others.size(), kShownNames)))
-        names += (names.empty() ? "" : ", ") + in_quotes(name);
-    if (file.others.size() > kShownNames) names += ", ...";
+    const std::string names = first_of(file.others, in_quotes);
     throw Error(ErrorKind::unsupported,
                 {.file = file.path,
                  .what = "has no array with one number for each point or cell" + (names.empty() ? "" : "; it has " + names),

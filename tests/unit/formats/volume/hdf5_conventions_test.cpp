@@ -187,6 +187,14 @@ TEST(Hdf5Conventions, VtkImages) {
         maker.set_numbers("/VTKHDF", "Version", {1, 0}), maker.set("/VTKHDF", "Type", "UnstructuredGrid");
     }
     expect_helpful(failure_of_loading(folder / "u.vtkhdf"), ErrorKind::unsupported, "UnstructuredGrid");
+    {
+        const Hdf5Maker maker(folder / "vectors.vtkhdf");
+        for (int i = 10; i < 35; ++i) maker.bytes("/VTKHDF/PointData/v" + std::to_string(i), {1, 1, 2, 3}, "abcdef");
+        maker.set_numbers("/VTKHDF", "Version", {1, 0}), maker.set("/VTKHDF", "Type", "ImageData");
+        maker.set_numbers("/VTKHDF", "WholeExtent", {0, 1, 0, 0, 0, 0}), maker.set_numbers("/VTKHDF", "Origin", {0, 0, 0});
+        maker.set_numbers("/VTKHDF", "Spacing", {1, 1, 1}), maker.set_numbers("/VTKHDF", "Direction", {1, 0, 0, 0, 1, 0, 0, 0, 1});
+    }
+    expect_helpful(failure_of_loading(folder / "vectors.vtkhdf"), ErrorKind::unsupported, "'v28', 'v29', ...");
 }
 
 }  // namespace

@@ -150,6 +150,11 @@ TEST(Hdf5Volume, ChoicesAndRefusals) {
     refused("/long", ErrorKind::unsupported, "int64");
     refused("/complex", ErrorKind::unsupported, "compound");
     refused("/nothing", ErrorKind::usage, "nothing");
+    {
+        const Hdf5Maker maker(folder / "lines.h5");
+        for (int i = 10; i < 35; ++i) maker.bytes("/line" + std::to_string(i), {4}, "1234");
+    }
+    expect_helpful(failure_of_loading(folder / "lines.h5"), ErrorKind::unsupported, "/line29 (4 uint8), ...");
 }
 
 TEST(Hdf5Volume, LinksAndCyclesEnd) {
