@@ -1,9 +1,11 @@
 #!/usr/bin/env python3
-"""clang-tidy over src and apps, the warnings of clang included: scripts/lint.py [--most] [BUILD_FOLDER], which has the compile commands;
-without, build/lint is configured for it. Nothing needs to be built. --most: without the checks of SLOW, which take a third of the time.
+"""clang-tidy over src and apps, the warnings of clang included: scripts/lint.py [--most] [--since REVISION] [BUILD_FOLDER], which has the
+compile commands; without, build/lint is configured for it. Nothing needs to be built. --most: without the checks of SLOW, which take a third
+of the time. --since: only what differs from that revision and what includes that; everything where git does not know the revision.
 
 Most of the time goes into the headers of the standard library, so the files of a folder are read together, as ISOATLAS_UNITY compiles
 them: no two of them have a name in both unnamed namespaces."""
+import argparse
 import collections
 import concurrent.futures
 import json
@@ -24,6 +26,7 @@ WARNINGS = ["-Wno-unknown-warning-option", "-Wno-ignored-optimization-argument",
 
 SLOW = ["performance-unnecessary-value-param"]  # reads the bodies of all functions of all headers
 MOST = "--most" in sys.argv
+CHECKS = ".clang-tidy"
 
 
 def groups(commands):
@@ -41,6 +44,41 @@ def groups(commands):
         found[file.parent, options].add(file)
     for (_, options), files in sorted(found.items(), key=lambda group: -len(group[1])):
         yield options, sorted(files)
+
+
+def changed_since(revision):
+    """Names of files that differ from a revision; None: what is checked may differ, or git does not know."""
+    names = set()
+    for command in (["diff", "--name-only", revision], ["ls-files", "--others", "--exclude-standard"]):
+        done = subprocess.run(["git", *command], cwd=ROOT, capture_output=True, text=True)
+        if done.returncode != 0:
+            return None
+        names |= set(done.stdout.splitlines())
+    return None if CHECKS in names else names
+
+
+def included(files, known):
+    """These files and all of ours that they include. known: what a file includes, as far as it has been read."""
+    seen, todo = set(), list(files)
+    while todo:
+        file = todo.pop()
+        if file in seen:
+            continue
+        seen.add(file)
+        if file not in known:
+            folders = [ROOT / "src", ROOT / "include", ROOT / "apps" / "isoatlas", file.parent]
+            names = re.findall(r'#include "([^"]+)"', file.read_text())
+            known[file] = [folder / name for name in names for folder in folders if (folder / name).is_file()]
+        todo += known[file]
+    return seen
+
+
+def units_to_lint(units, revision):
+    changed = changed_since(revision) if revision else None
+    if changed is None:
+        return units
+    changed, known = {ROOT / name for name in changed}, {}
+    return [(options, files) for options, files in units if included(files, known) & changed]
 
 
 def lint(options, files):
@@ -65,15 +103,24 @@ def configured():
     return build
 
 
+def count(units):
+    return sum(len(files) for _, files in units)
+
+
 def main():
-    folders = [word for word in sys.argv[1:] if word != "--most"]
-    build = pathlib.Path(folders[0]) if folders else configured()
-    commands = json.loads((build / "compile_commands.json").read_text())
-    units = list(groups(commands))
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--most", action="store_true")
+    parser.add_argument("--since", metavar="REVISION")
+    parser.add_argument("build", type=pathlib.Path, nargs="?")
+    arguments = parser.parse_args()
+    commands = json.loads(((arguments.build or configured()) / "compile_commands.json").read_text())
+    all_units = list(groups(commands))
+    units = units_to_lint(all_units, arguments.since)
     with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
         findings = [text for text in pool.map(lambda unit: lint(*unit), units) if text]
     print("".join(findings), end="")
-    print(f"lint: {sum(len(files) for _, files in units)} files, {'findings above' if findings else 'no finding'}")
+    of_all = f" of {count(all_units)}" if len(units) < len(all_units) else ""
+    print(f"lint: {count(units)}{of_all} files, {'findings above' if findings else 'no finding'}")
     if findings:
         sys.exit("lint: the findings are above; each must be mended (or, with a reason, marked NOLINT)")
 
