@@ -5,6 +5,7 @@ option(ISOATLAS_PRECOMPILE "Precompile common headers" ON)
 # unnamed namespaces, which scripts/lint.py checks. Rooms with inner loops stay apart: g++ inlines less where a unit is large.
 option(ISOATLAS_UNITY "Compile the sources of a folder together" OFF)
 set(ISOATLAS_KERNEL_ROOMS base geometry field critical tree zones analysis levelset mesh octree_front level_of_detail codec bricks render)
+set(ISOATLAS_KERNEL_LIBRARIES core store measures render phantom)  # with inner loops, on which the time of the tests depends
 
 function(isoatlas_precompile target)
   if(ISOATLAS_PRECOMPILE)

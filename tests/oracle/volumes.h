@@ -23,7 +23,7 @@ namespace oracle {
 
 inline void use_trials_of_environment() {
     const char* trials = std::getenv("ISOATLAS_TRIALS");
-    const std::string parameters = "max_success=" + std::string(trials ? trials : "200") + " max_size=100 verbose_progress=0";
+    const std::string parameters = "max_success=" + std::string(trials ? trials : "100") + " max_size=100 verbose_progress=0";
     setenv("RC_PARAMS", parameters.c_str(), 0);
 }
 inline const bool kTrialsAreSet = (use_trials_of_environment(), true);

@@ -105,18 +105,20 @@ private:
     }
 
     static bool parts(const std::vector<std::array<Point, 6>>& corners, int a, int b, int c) {
-        std::array<Range, 6> range;
-        for (const std::array<Point, 6>& p : corners) {
-            for (int d = 0; d < 6; ++d) range[d].add(side(p[a], p[b], p[c], p[d]));
-        }
         bool one_way = true, other_way = true;
         for (int d = 0; d < 6; ++d) {
             if (d == a || d == b || d == c) continue;
-            const bool positive = range[d].is_positive_inside(), negative = range[d].is_negative_inside();
+            Range range;
+            for (const std::array<Point, 6>& p : corners) {
+                range.add(side(p[a], p[b], p[c], p[d]));
+                if (range.min < 0 && range.greatest > 0) return false;
+            }
+            const bool positive = range.is_positive_inside(), negative = range.is_negative_inside();
             one_way = one_way && (d % 2 == 0 ? positive : negative);
             other_way = other_way && (d % 2 == 0 ? negative : positive);
+            if (!one_way && !other_way) return false;
         }
-        return one_way || other_way;
+        return true;
     }
 
     /// Range of normal * x for a point.
