@@ -13,6 +13,7 @@
 #include "isoatlas/build.h"
 #include "isoatlas/phantom.h"
 #include "isoatlas/verify.h"
+#include "oracle/write_file.h"
 #include "store/container.h"
 #include "store/pack.h"
 
@@ -124,7 +125,7 @@ TEST_F(VerifyStore, AFlippedByteIsToldWithItsArray) {
     const auto told = [&](std::int64_t place) {
         std::string bytes = whole;
         bytes[static_cast<std::size_t>(place)] = static_cast<char>(bytes[static_cast<std::size_t>(place)] ^ 0x10);
-        std::ofstream(bad_, std::ios::binary) << bytes;
+        oracle::write_file(bad_, bytes);
         try {
             const std::vector<CheckResult> failed = failures(bad_, false);
             return failed.empty() ? std::string("nothing") : failed.front().detail;

@@ -5,10 +5,10 @@
 #include <zlib.h>
 
 #include <filesystem>
-#include <fstream>
 #include <string>
 
 #include "isoatlas/volume.h"
+#include "oracle/write_file.h"
 
 namespace mutants {
 
@@ -24,10 +24,6 @@ inline std::string gzip(const std::string& plain) {
     packed.resize(stream.total_out);
     deflateEnd(&stream);
     return packed;
-}
-
-inline void write(const std::filesystem::path& path, const std::string& content) {
-    std::ofstream(path, std::ios::binary).write(content.data(), static_cast<std::streamsize>(content.size()));
 }
 
 inline bool is_refused(const std::filesystem::path& path) {
@@ -47,20 +43,20 @@ inline std::string broken_promise_of_readers() {
     const std::string samples = "samples of 8 bits, 24 ..", header = "NRRD0004\ntype: uchar\ndimension: 3\nsizes: 2 3 4\nencoding: gzip\n";
     std::string damaged = gzip(samples), promise;
     damaged[damaged.size() - 6] = static_cast<char>(damaged[damaged.size() - 6] ^ 1);
-    write(folder / "sound.nrrd", header + "\n" + gzip(samples));
+    oracle::write_file(folder / "sound.nrrd", header + "\n" + gzip(samples));
     if (is_refused(folder / "sound.nrrd")) promise = "a sound file is read";
-    write(folder / "sum.nrrd", header + "\n" + damaged);
+    oracle::write_file(folder / "sum.nrrd", header + "\n" + damaged);
     if (!is_refused(folder / "sum.nrrd")) promise = "a wrong checksum is refused";
-    write(folder / "longer.nrrd", header + "\n" + gzip(samples + "more"));
+    oracle::write_file(folder / "longer.nrrd", header + "\n" + gzip(samples + "more"));
     if (!is_refused(folder / "longer.nrrd")) promise = "more than the samples is refused";
-    write(folder / "part0", gzip(samples.substr(0, 12) + "more"));
-    write(folder / "part1", gzip(samples.substr(12)));
-    write(folder / "parts.nhdr", header + "data file: part%d 0 1 1\n");
+    oracle::write_file(folder / "part0", gzip(samples.substr(0, 12) + "more"));
+    oracle::write_file(folder / "part1", gzip(samples.substr(12)));
+    oracle::write_file(folder / "parts.nhdr", header + "data file: part%d 0 1 1\n");
     if (!is_refused(folder / "parts.nhdr")) promise = "more than its samples in the first of two data files is refused";
     std::filesystem::create_directory(folder / "own");
     std::filesystem::create_symlink("../sound.gz", folder / "own/link.gz");
-    write(folder / "sound.gz", gzip(samples));
-    write(folder / "own/link.nhdr", header + "data file: link.gz\n");
+    oracle::write_file(folder / "sound.gz", gzip(samples));
+    oracle::write_file(folder / "own/link.nhdr", header + "data file: link.gz\n");
     if (!is_refused(folder / "own/link.nhdr")) promise = "a link out of the folder is refused";
     std::filesystem::remove_all(folder);
     return promise;

@@ -14,6 +14,7 @@
 #include "isoatlas/environment.h"
 #include "isoatlas/phantom.h"
 #include "oracle/stores.h"
+#include "oracle/write_file.h"
 
 namespace isoatlas {
 namespace {
@@ -35,11 +36,6 @@ std::multiset<Corners> triangles_of(const Surface& surface) {
 std::string bytes_of(const std::string& path) {
     std::ifstream file(path, std::ios::binary);
     return {std::istreambuf_iterator<char>(file), {}};
-}
-
-void write(const std::string& path, const std::string& bytes) {
-    std::ofstream file(path, std::ios::binary);
-    file.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
 }
 
 class LevelsOfStores : public oracle::Stores {
@@ -172,7 +168,7 @@ TEST_F(LevelsOfStores, DamageIsReported) {
     for (std::size_t i = 7; i < bytes.size(); i += bytes.size() / 300 + 1, ++tried) {
         std::string damaged = bytes;
         damaged[i] = static_cast<char>(damaged[i] ^ 0x10);
-        write(path, damaged);
+        oracle::write_file(path, damaged);
         try {
             look();
         } catch (const Error& error) {
@@ -182,7 +178,7 @@ TEST_F(LevelsOfStores, DamageIsReported) {
     }
     EXPECT_GT(reported, tried * 9 / 10);  // the rest: HDF5's own structures, which are not read
     for (std::size_t i = 0; i < bytes.size(); i += bytes.size() / 40 + 1) {
-        write(path, bytes.substr(0, i));
+        oracle::write_file(path, bytes.substr(0, i));
         EXPECT_THROW(look(), Error) << i;
     }
 }

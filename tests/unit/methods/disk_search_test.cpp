@@ -21,6 +21,7 @@
 #include "methods/disk/interval_tree_writer.h"
 #include "oracle/mesh_checks.h"
 #include "oracle/stores.h"
+#include "oracle/write_file.h"
 #include "unit/methods/searches.h"
 
 namespace oracle {
@@ -207,7 +208,7 @@ TEST_F(DiskSearch, RefusesDamage) {
     std::ifstream in(path_, std::ios::binary);
     const std::string good((std::istreambuf_iterator<char>(in)), {});
     const auto refuses = [&](const std::string& bytes) {
-        std::ofstream(path_, std::ios::binary | std::ios::trunc) << bytes;
+        write_file(path_, bytes);
         for (const double tau : {0.25, 0.5, 0.75}) {
             try {
                 if (found(tau) != expected(volume, tau)) return false;

@@ -19,6 +19,7 @@
 #include "isoatlas/phantom.h"
 #include "oracle/mesh_checks.h"
 #include "oracle/stores.h"
+#include "oracle/write_file.h"
 #include "oracle/zone_points.h"
 
 namespace oracle {
@@ -280,7 +281,7 @@ TEST_F(ZoneFileBytes, AreRefusedWhenDamaged) {
     const std::string good((std::istreambuf_iterator<char>(in)), {});
     // Either refused, or the damaged block was not read.
     const auto refuses = [&](const std::string& bytes) {
-        std::ofstream(path_, std::ios::binary | std::ios::trunc) << bytes;
+        write_file(path_, bytes);
         for (const double tau : {0.25, 0.5, 0.75}) {
             try {
                 CellSearchCost cost;
@@ -292,7 +293,7 @@ TEST_F(ZoneFileBytes, AreRefusedWhenDamaged) {
         return true;
     };
     const auto opens = [&](const std::string& bytes) {
-        std::ofstream(path_, std::ios::binary | std::ios::trunc) << bytes;
+        write_file(path_, bytes);
         try {
             (void)ZoneFileSearch(path_);
             return true;

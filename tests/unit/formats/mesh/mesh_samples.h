@@ -42,9 +42,6 @@ inline std::string read_bytes(const std::string& path) {
     std::ifstream in(path, std::ios::binary);
     return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
 }
-inline void write_bytes(const std::string& path, std::string_view bytes) {
-    std::ofstream(path, std::ios::binary).write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-}
 
 /// Adds an octahedron around `centre`; inside out for the wall of a cavity.
 inline void add_octahedron(Surface& surface, const Point& centre, double radius, std::int64_t object, std::int64_t contour,

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <sstream>
 
+#include "oracle/write_file.h"
 #include "unit/formats/common/external.h"
 #include "unit/formats/common/placed_volumes.h"
 #include "unit/formats/mesh/mesh_samples.h"
@@ -185,7 +186,7 @@ TEST(GlbFrame, units_and_moved_models) {
     ASSERT_NE(at, std::string::npos) << bytes.substr(0, 600);
     bytes.replace(at + 10, 6, "+0.001");
     bytes[at + 10] = ' ';
-    mesh_samples::write_bytes(folder / "b.glb", bytes);
+    oracle::write_file(folder / "b.glb", bytes);
     EXPECT_EQ(read_mesh(folder / "a.glb").space, "RAS");
     const Mesh moved = read_mesh(folder / "b.glb");
     EXPECT_EQ(moved.space, "unknown");

@@ -4,11 +4,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <fstream>
 #include <string>
 #include <vector>
 
 #include "formats/volume/hdf5_driver.h"
+#include "oracle/write_file.h"
 #include "unit/formats/volume/hdf5_files.h"
 #include "unit/formats/volume/volume_files.h"
 
@@ -42,11 +42,6 @@ void write(const std::string& path, const Texts& texts, hsize_t user_block = 0) 
     maker.set_list("g", "a", texts);
 }
 
-void write_content(const std::string& path, const std::string& content) {
-    std::ofstream file(path, std::ios::binary);
-    file << content;
-}
-
 TEST(Hdf5Heap, TextsOfAnyLength) {
     const TestFolder folder;
     const Texts texts = {"one", "", std::string(5000, 'x'), "\u00b5m", std::string(100000, 'y'), "last"};
@@ -72,7 +67,7 @@ TEST(Hdf5Heap, NoDamagedByteGivesMoreThanTheFileHas) {
         for (const int damage : {1, 0x80, 0xff}) {
             std::string damaged = content;
             damaged[i] = static_cast<char>(damaged[i] ^ damage);
-            write_content(folder / "d.h5", damaged);
+            oracle::write_file(folder / "d.h5", damaged);
             const Texts found = read(folder / "d.h5");
             std::size_t bytes = 0;
             for (const std::string& text : found) bytes += text.size();
@@ -90,7 +85,7 @@ TEST(Hdf5Heap, NoPrefixOfAFileGivesAnotherText) {
     const std::string content = file_content(folder / "v.h5");
     const Texts whole = read(folder / "v.h5");
     for (std::size_t size = 0; size < content.size(); size += 7) {
-        write_content(folder / "d.h5", content.substr(0, size));
+        oracle::write_file(folder / "d.h5", content.substr(0, size));
         for (const std::string& text : read(folder / "d.h5")) EXPECT_TRUE(text.empty() || std::ranges::find(whole, text) != whole.end());
     }
 }

@@ -10,13 +10,13 @@
 #include <cmath>
 #include <cstring>
 #include <filesystem>
-#include <fstream>
 #include <functional>
 #include <string>
 #include <vector>
 
 #include "faults/forwarding_files.h"
 #include "isoatlas/volume.h"
+#include "oracle/write_file.h"
 
 namespace isoatlas::test {
 
@@ -36,12 +36,7 @@ public:
     }
     [[nodiscard]] std::string operator/(const std::string& name) const { return (path_ / name).string(); }
     std::string write(const std::string& name, const std::string& content) const {
-        std::error_code ignored;
-        std::filesystem::remove(path_ / name, ignored);  // a file that is cut to nothing and written again goes to the disk at once
-        std::ofstream file(path_ / name, std::ios::binary);
-        file.write(content.data(), static_cast<std::streamsize>(content.size()));
-        file.close();
-        if (!file) throw std::runtime_error("cannot write " + name);
+        oracle::write_file(path_ / name, content);
         return *this / name;
     }
 

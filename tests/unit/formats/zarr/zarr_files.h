@@ -3,7 +3,6 @@
 
 #include <cstring>
 #include <filesystem>
-#include <fstream>
 #include <map>
 #include <numeric>
 #include <optional>
@@ -12,6 +11,7 @@
 #include <vector>
 
 #include "formats/zarr/codecs.h"
+#include "oracle/write_file.h"
 #include "unit/formats/volume/hostile_files.h"
 
 namespace isoatlas::test {
@@ -25,8 +25,7 @@ inline std::string folder_of(const TestFolder& folder, const std::string& name, 
     for (const auto& [key, value] : keys) {
         const std::filesystem::path path = std::filesystem::path(folder / name) / key;
         std::filesystem::create_directories(path.parent_path());
-        std::ofstream file(path, std::ios::binary);
-        file.write(value.data(), static_cast<std::streamsize>(value.size()));
+        oracle::write_file(path, value);
     }
     return folder / name;
 }
