@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-namespace isoatlas::oracle {
+namespace oracle {
 
 class Sha256 {
 public:
@@ -74,4 +74,4 @@ private:
     std::uint64_t bits_ = 0;
 };
 
-}  // namespace isoatlas::oracle
+}  // namespace oracle
