@@ -89,7 +89,7 @@ TEST_F(Stores, NeedNoTreesForCutsAndSurfaces) {
 // One object from the bricks around it: every object of a cut, or some of many.
 void check_objects(const Atlas& atlas, const Volume& volume, double tau, isoatlas::SurfaceOptions options) {
     const isoatlas::Cut cut = isoatlas::cut(volume, tau);
-    const std::size_t step = std::max<std::size_t>(1, cut.objects.size() / 40);
+    const std::size_t step = std::max<std::size_t>(1, cut.objects.size() / 12);
     for (std::size_t i = 0; i < cut.objects.size(); i += step) {
         options.objects = {cut.objects[i].id};
         ASSERT_TRUE(same(atlas.extract(tau, options), isoatlas::extract(volume, tau, {.surface = options})))
@@ -185,7 +185,7 @@ Surface of_region(const Atlas& atlas, double tau, const isoatlas::SurfaceOptions
 }
 
 RC_GTEST_FIXTURE_PROP(Stores, GiveTheSameObjectsByRegionGrowing, ()) {
-    const isoatlas::PhantomOptions field{.size = *rc::gen::inRange<std::int64_t>(40, 90),
+    const isoatlas::PhantomOptions field{.size = *rc::gen::inRange<std::int64_t>(40, 72),
                                          .seed = *rc::gen::inRange<std::uint64_t>(1, 1000),
                                          .noise = *rc::gen::element(0.0, 0.05, 0.2),
                                          .quantise = *rc::gen::inRange<std::int64_t>(3, 40)};
