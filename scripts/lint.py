@@ -8,6 +8,7 @@ them: no two of them have a name in both unnamed namespaces."""
 import argparse
 import collections
 import concurrent.futures
+import functools
 import json
 import os
 import pathlib
@@ -25,7 +26,6 @@ WARNINGS = ["-Wno-unknown-warning-option", "-Wno-ignored-optimization-argument",
             "-Wno-enum-constexpr-conversion"]
 
 SLOW = ["performance-unnecessary-value-param"]  # reads the bodies of all functions of all headers
-MOST = "--most" in sys.argv
 CHECKS = ".clang-tidy"
 
 
@@ -57,19 +57,22 @@ def changed_since(revision):
     return None if CHECKS in names else names
 
 
-def included(files, known):
-    """These files and all of ours that they include. known: what a file includes, as far as it has been read."""
+@functools.cache
+def includes(file):
+    """The files of ours that a file names."""
+    folders = [ROOT / "src", ROOT / "include", ROOT / "apps" / "isoatlas", file.parent]
+    names = re.findall(r'#include "([^"]+)"', file.read_text())
+    return [folder / name for name in names for folder in folders if (folder / name).is_file()]
+
+
+def included(files):
+    """These files and all of ours that they include, directly or through others."""
     seen, todo = set(), list(files)
     while todo:
         file = todo.pop()
-        if file in seen:
-            continue
-        seen.add(file)
-        if file not in known:
-            folders = [ROOT / "src", ROOT / "include", ROOT / "apps" / "isoatlas", file.parent]
-            names = re.findall(r'#include "([^"]+)"', file.read_text())
-            known[file] = [folder / name for name in names for folder in folders if (folder / name).is_file()]
-        todo += known[file]
+        if file not in seen:
+            seen.add(file)
+            todo += includes(file)
     return seen
 
 
@@ -77,13 +80,13 @@ def units_to_lint(units, revision):
     changed = changed_since(revision) if revision else None
     if changed is None:
         return units
-    changed, known = {ROOT / name for name in changed}, {}
-    return [(options, files) for options, files in units if included(files, known) & changed]
+    changed = {ROOT / name for name in changed}
+    return [(options, files) for options, files in units if included(files) & changed]
 
 
-def lint(options, files):
-    """The findings in these files, as text."""
-    without = ",".join(f"-{name}" for name in ["bugprone-suspicious-include", *(SLOW if MOST else [])])
+def lint(options, files, left_out):
+    """The findings in these files, as text. left_out: names of checks."""
+    without = ",".join(f"-{name}" for name in ["bugprone-suspicious-include", *left_out])
     with tempfile.NamedTemporaryFile("w", suffix=".cpp") as unit:
         unit.writelines(f'#include "{file}"\n' for file in files)
         unit.flush()
@@ -116,8 +119,9 @@ def main():
     commands = json.loads(((arguments.build or configured()) / "compile_commands.json").read_text())
     all_units = list(groups(commands))
     units = units_to_lint(all_units, arguments.since)
+    left_out = SLOW if arguments.most else []
     with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
-        findings = [text for text in pool.map(lambda unit: lint(*unit), units) if text]
+        findings = [text for text in pool.map(lambda unit: lint(*unit, left_out), units) if text]
     print("".join(findings), end="")
     of_all = f" of {count(all_units)}" if len(units) < len(all_units) else ""
     print(f"lint: {count(units)}{of_all} files, {'findings above' if findings else 'no finding'}")
