@@ -3,44 +3,13 @@
 
 For each room of src/: files, mean and largest number of headers that a file includes, directly or through others, and the depth: the longest
 chain of includes. With COMMIT, of that commit instead of the working tree. With ROOM<=DEPTH, fails when the room is deeper."""
-import re
-import subprocess
 import sys
 from pathlib import Path
 
-INCLUDE = re.compile(r'^\s*#\s*include\s*["<]([\w/]+\.h)[">]', re.M)
+from includes import commit_files, included, tree_files
 
 
-def tree_files(root):
-    """path -> text of src/ and include/ in a working tree."""
-    return {p.relative_to(root).as_posix(): p.read_text(encoding="utf-8") for folder in ("src", "include")
-            for p in sorted((root / folder).rglob("*")) if p.suffix in (".h", ".cpp")}
-
-
-def commit_files(root, commit):
-    """As tree_files, of a commit."""
-    def git(*arguments, **options):
-        return subprocess.run(["git", "-C", root, *arguments], check=True, capture_output=True, **options).stdout
-    paths = [p for p in git("ls-tree", "-r", "--name-only", commit, "src", "include").decode().split("\n") if p.endswith((".h", ".cpp"))]
-    blobs, files, at = git("cat-file", "--batch", input="".join(f"{commit}:{p}\n" for p in paths).encode()), {}, 0
-    for path in paths:
-        end = blobs.index(b"\n", at)
-        size = int(blobs[at:end].split()[-1])
-        files[path] = blobs[end + 1:end + 1 + size].decode()
-        at = end + size + 2
-    return files
-
-
-def included(files):
-    """path -> the headers of the repository that it names."""
-    found = {}
-    for path, text in files.items():
-        places = [place for name in INCLUDE.findall(text) for place in ("src/" + name, "include/" + name) if place in files]
-        found[path] = sorted(set(places) - {path})
-    return found
-
-
-def reached(graph):
+def chains(graph):
     """path -> (all headers that it includes, length of the longest chain). The includes have no circle, and are not deep."""
     known = {}
 
@@ -58,7 +27,7 @@ def reached(graph):
 def rooms(files):
     """room -> (files, mean number of headers, largest number, longest chain)."""
     of_room = {}
-    for path, (headers, chain) in reached(included(files)).items():
+    for path, (headers, chain) in chains(included(files)).items():
         if path.startswith("src/"):
             of_room.setdefault(path[4:].rsplit("/", 1)[0], []).append((len(headers), chain))
     return {room: (len(numbers), sum(n for n, _ in numbers) / len(numbers), max(n for n, _ in numbers), max(c for _, c in numbers))

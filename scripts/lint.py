@@ -8,7 +8,6 @@ them: no two of them have a name in both unnamed namespaces."""
 import argparse
 import collections
 import concurrent.futures
-import functools
 import json
 import os
 import pathlib
@@ -17,6 +16,8 @@ import shlex
 import subprocess
 import sys
 import tempfile
+
+from includes import changed_since, included, reached, tree_files
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 TIDY = "clang-tidy-19"
@@ -46,42 +47,13 @@ def groups(commands):
         yield options, sorted(files)
 
 
-def changed_since(revision):
-    """Names of files that differ from a revision; None: what is checked may differ, or git does not know."""
-    names = set()
-    for command in (["diff", "--name-only", revision], ["ls-files", "--others", "--exclude-standard"]):
-        done = subprocess.run(["git", *command], cwd=ROOT, capture_output=True, text=True)
-        if done.returncode != 0:
-            return None
-        names |= set(done.stdout.splitlines())
-    return None if CHECKS in names else names
-
-
-@functools.cache
-def includes(file):
-    """The files of ours that a file names."""
-    folders = [ROOT / "src", ROOT / "include", ROOT / "apps" / "isoatlas", file.parent]
-    names = re.findall(r'#include "([^"]+)"', file.read_text())
-    return [folder / name for name in names for folder in folders if (folder / name).is_file()]
-
-
-def included(files):
-    """These files and all of ours that they include, directly or through others."""
-    seen, todo = set(), list(files)
-    while todo:
-        file = todo.pop()
-        if file not in seen:
-            seen.add(file)
-            todo += includes(file)
-    return seen
-
-
 def units_to_lint(units, revision):
-    changed = changed_since(revision) if revision else None
-    if changed is None:
+    changed = changed_since(ROOT, revision) if revision else None
+    if changed is None or CHECKS in changed:
         return units
-    changed = {ROOT / name for name in changed}
-    return [(options, files) for options, files in units if included(files) & changed]
+    graph = included(tree_files(ROOT, ["src", "include", "apps"]))
+    return [(options, files) for options, files in units
+            if reached(graph, [file.relative_to(ROOT).as_posix() for file in files]) & changed]
 
 
 def lint(options, files, left_out):

@@ -39,7 +39,7 @@ class Builds(harness.CliTest):
         print("seed", seed)
         chance = random.Random(seed)
         resumed = 0
-        for _ in range(50):
+        for _ in range(25):
             (self.folder / "killed.atlas").unlink(missing_ok=True)
             builder = self.begin("build", "noise.nrrd", "-o", "killed.atlas")
             time.sleep(chance.random() * self.seconds)

@@ -6,6 +6,7 @@
 #include <fstream>
 #include <future>
 #include <iterator>
+#include <utility>
 
 #include "base/memory_limit.h"
 #include "isoatlas/build.h"
@@ -45,10 +46,9 @@ protected:
 };
 
 TEST_F(Builds, InAnyMemory) {
-    for (const int threads : {1, 2, 3}) {
-        for (const std::int64_t slab : {0, 1, 7, 40}) {
-            EXPECT_TRUE(built("one", kMinMemory, threads, slab) == expected_) << threads << " threads, slabs of " << slab;
-        }
+    constexpr std::pair<int, int> kThreadsAndSlabs[] = {{1, 1}, {1, 40}, {2, 0}, {2, 7}, {3, 1}, {3, 7}};
+    for (const auto& [threads, slab] : kThreadsAndSlabs) {
+        EXPECT_TRUE(built("one", kMinMemory, threads, slab) == expected_) << threads << " threads, slabs of " << slab;
     }
 }
 

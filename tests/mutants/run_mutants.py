@@ -13,6 +13,9 @@ import subprocess
 import sys
 import tempfile
 
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "scripts"))
+from includes import included, reached, tree_files, users  # noqa: E402
+
 # What the probe runs: rooms, and files of others.
 ROOMS = ("base", "geometry", "field", "critical", "tree", "zones", "analysis", "features", "persistence", "levelset", "mesh", "octree_front",
          "level_of_detail", "formats")
@@ -45,21 +48,10 @@ def mutated(source, mutant):
     return text
 
 
-def users(src, name):
+def units_of(graph, name):
     """Translation units of the rooms that include src/name, directly or not."""
-    includes = {}
-    for file in src.rglob("*"):
-        if file.suffix in (".h", ".cpp"):
-            key = file.relative_to(src).as_posix()
-            includes[key] = set(re.findall(r'#include "([^"]+)"', file.read_text()))
-    seen, todo = set(), [name]
-    while todo:
-        current = todo.pop()
-        if current in seen:
-            continue
-        seen.add(current)
-        todo += [file for file, included in includes.items() if current in included]
-    return sorted(file for file in seen if file.endswith(".cpp") and (file.split("/")[0] in ROOMS or file in FILES))
+    files = [file.removeprefix("src/") for file in reached(graph, [f"src/{name}"])]
+    return sorted(file for file in files if file.endswith(".cpp") and (file.split("/")[0] in ROOMS or file in FILES))
 
 
 def commands_of(build):
@@ -121,7 +113,7 @@ def check(arguments, commands, mutant):
         target = overlay / mutant["file"]
         target.parent.mkdir(parents=True)
         target.write_text(mutated((src / mutant["file"]).read_text(), mutant))
-        objects, units = [], users(src, mutant["file"])
+        objects, units = [], units_of(arguments.users, mutant["file"])
         if not units:
             return name, "NOT COMPILED", f"no file of ROOMS or FILES sees src/{mutant['file']}"
         for entry, source in to_compile(commands, src, overlay, units):
@@ -151,6 +143,7 @@ def main():
     parser.add_argument("--only", help="names that contain this")
     arguments = parser.parse_args()
     arguments.link = link_command(arguments.build)
+    arguments.users = users(included(tree_files(arguments.source, ["src"])))
     commands = commands_of(arguments.build)
     mutants = [m for m in parse(arguments.source / "tests/mutants/mutants.txt") if not arguments.only or arguments.only in m["mutant"]]
     bad = 0

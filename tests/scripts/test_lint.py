@@ -1,13 +1,17 @@
 #!/usr/bin/env python3
 """Which sources are linted when only changed ones are: those that differ from a revision, and those that include what differs."""
-import importlib.util
 import os
 import pathlib
 import subprocess
+import sys
 import tempfile
 import unittest
+import unittest.mock
 
 SOURCE = pathlib.Path(os.environ["ISOATLAS_SOURCE"])
+sys.path.insert(0, str(SOURCE / "scripts"))
+import lint  # noqa: E402
+
 FILES = {
     "include/isoatlas/volume.h": "",
     "src/base/sort.h": '#include "isoatlas/volume.h"\n',
@@ -27,10 +31,7 @@ class Lint(unittest.TestCase):
         self.git("init", "--quiet")
         self.git("add", ".")
         self.git("-c", "user.name=test", "-c", "user.email=test@example.org", "commit", "--quiet", "-m", "all")
-        spec = importlib.util.spec_from_file_location("lint", SOURCE / "scripts/lint.py")
-        self.lint = importlib.util.module_from_spec(spec)
-        spec.loader.exec_module(self.lint)
-        self.lint.ROOT = self.root
+        self.enterContext(unittest.mock.patch.object(lint, "ROOT", self.root))
 
     def write(self, name, text):
         path = self.root / name
@@ -44,7 +45,7 @@ class Lint(unittest.TestCase):
         """The folders that are linted."""
         sources = [path for path in self.root.glob("src/*/*.cpp")]
         units = [(folder, [path for path in sources if path.parent.name == folder]) for folder in ("base", "tree", "image")]
-        return [folder for folder, _ in self.lint.units_to_lint(units, revision)]
+        return [folder for folder, _ in lint.units_to_lint(units, revision)]
 
     def test_nothing_differs(self):
         self.assertEqual(self.folders("HEAD"), [])
