@@ -7,6 +7,11 @@ option(ISOATLAS_UNITY "Compile the sources of a folder together" OFF)
 set(ISOATLAS_KERNEL_ROOMS base geometry field critical tree zones analysis levelset mesh octree_front level_of_detail codec bricks render)
 set(ISOATLAS_KERNEL_LIBRARIES core store measures render phantom)  # with inner loops, on which the time of the tests depends
 
+# In builds for tests, what no test waits for is compiled with -O1: a quarter to a third less to compile. Further arguments: options with it.
+function(isoatlas_compile_fast target)
+  target_compile_options(${target} PRIVATE "$<$<CONFIG:RelWithDebInfo>:-O1;${ARGN}>")
+endfunction()
+
 function(isoatlas_precompile target)
   if(ISOATLAS_PRECOMPILE)
     target_precompile_headers(${target} PRIVATE <algorithm> <array> <cmath> <cstdint> <functional> <limits> <map> <memory> <optional> <span>
