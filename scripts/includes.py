@@ -4,7 +4,7 @@ import re
 import subprocess
 
 INCLUDE = re.compile(r'^\s*#\s*include\s*["<]([^">]+)[">]', re.M)
-PLACES = ("src/", "include/", "apps/isoatlas/", "tests/")  # of names in #include, beside the folder of the file
+PLACES = ("src/", "include/", "apps/isoatlas/")  # of names in #include, beside the folder of the file
 SOURCES = (".h", ".cpp")
 
 
