@@ -31,7 +31,7 @@ inline bool is_refused(const std::filesystem::path& path) {
         (void)isoatlas::load_volume(path.string());
         return false;
     } catch (const isoatlas::Error& error) {
-        return error.kind() == isoatlas::ErrorKind::input;
+        return error.kind() == isoatlas::ErrorKind::input || error.kind() == isoatlas::ErrorKind::unsupported;
     }
 }
 
@@ -58,6 +58,11 @@ inline std::string broken_promise_of_readers() {
     oracle::write_file(folder / "sound.gz", gzip(samples));
     oracle::write_file(folder / "own/link.nhdr", header + "data file: link.gz\n");
     if (!is_refused(folder / "own/link.nhdr")) promise = "a link out of the folder is refused";
+    const std::string long_number = "NRRD0004\ntype: int64\ndimension: 2\nsizes: 2 1\nencoding: ascii\n\n";
+    oracle::write_file(folder / "exact.nrrd", long_number + "1 9007199254740994\n");
+    if (is_refused(folder / "exact.nrrd")) promise = "an integer that float64 has is read";
+    oracle::write_file(folder / "rounded.nrrd", long_number + "1 9007199254740993\n");
+    if (!is_refused(folder / "rounded.nrrd")) promise = "an integer that float64 does not have is refused";
     std::filesystem::remove_all(folder);
     return promise;
 }

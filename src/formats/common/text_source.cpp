@@ -33,7 +33,9 @@ bool parse_sample(std::string_view word, std::byte* out) {
     return true;
 }
 
-bool parse_sample(std::string_view word, ValueType type, std::byte* out) {
+bool parse_sample(std::string_view word, ValueType type, WideInteger wide, std::byte* out) {
+    if (wide == WideInteger::int64) return parse_sample<std::int64_t>(word, out);
+    if (wide == WideInteger::uint64) return parse_sample<std::uint64_t>(word, out);
     switch (type) {
         case ValueType::u8: return parse_sample<std::uint8_t>(word, out);
         case ValueType::i8: return parse_sample<std::int8_t>(word, out);
@@ -49,10 +51,11 @@ bool parse_sample(std::string_view word, ValueType type, std::byte* out) {
 
 class TextSource final : public ByteSource {
 public:
-    TextSource(std::unique_ptr<ByteSource> text, ValueType type, TextEnd end)
+    TextSource(std::unique_ptr<ByteSource> text, ValueType type, TextEnd end, WideInteger wide)
         : text_(std::move(text)),
           type_(type),
           end_(end),
+          wide_(wide),
           sample_bytes_(static_cast<std::int64_t>(size_of(type))),
           text_bytes_(text_->size_bound()) {}
 
@@ -112,9 +115,11 @@ private:
             fail("the text ends with " + in_quotes(word_) + ", which may be the beginning of a longer number", "a line end after it",
                  "the file is truncated: get it again; if it is whole, add a line end");
         }
-        if (!parse_sample(word_, type_, out)) fail(in_quotes(word_) + " is not a sample", std::string("a ") + name_of(type_) + " number");
+        if (!parse_sample(word_, type_, wide_, out))
+            fail(in_quotes(word_) + " is not a sample", std::string("a ") + type_name() + " number");
         ++samples_read_;
     }
+    [[nodiscard]] const char* type_name() const { return wide_ == WideInteger::none ? name_of(type_) : name_of(wide_); }
     [[nodiscard]] bool is_at_end() const { return at_ == chunk_.size() && consumed_ == text_bytes_; }
     [[noreturn]] void fail(const std::string& what, const std::string& expected,
                            const std::string& next = "the file is truncated or damaged: get it again") const {
@@ -128,6 +133,7 @@ private:
     std::unique_ptr<ByteSource> text_;
     ValueType type_;
     TextEnd end_;
+    WideInteger wide_;
     std::int64_t sample_bytes_;
     std::int64_t text_bytes_;
     std::int64_t consumed_ = 0;  // characters read into chunks
@@ -138,8 +144,8 @@ private:
 
 }  // namespace
 
-std::unique_ptr<ByteSource> open_text_source(std::unique_ptr<ByteSource> text, ValueType type, TextEnd end) {
-    return std::make_unique<TextSource>(std::move(text), type, end);
+std::unique_ptr<ByteSource> open_text_source(std::unique_ptr<ByteSource> text, ValueType type, TextEnd end, WideInteger wide) {
+    return std::make_unique<TextSource>(std::move(text), type, end, wide);
 }
 
 }  // namespace isoatlas

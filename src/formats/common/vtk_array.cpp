@@ -312,8 +312,9 @@ void read_values(const VtkFile& file, const VtkArray& array, const NumericType& 
 
 }  // namespace
 
-std::unique_ptr<ByteSource> open_vtk_array(const VtkFile& file, const VtkArray& array, ValueType type, std::int64_t count) {
-    if (array.format == VtkFormat::ascii) return open_text_source(open_text(file, array), type, TextEnd::anything);
+std::unique_ptr<ByteSource> open_vtk_array(const VtkFile& file, const VtkArray& array, ValueType type, std::int64_t count,
+                                           WideInteger wide) {
+    if (array.format == VtkFormat::ascii) return open_text_source(open_text(file, array), type, TextEnd::anything, wide);
     const std::int64_t wanted = count * static_cast<std::int64_t>(size_of(type));
     std::int64_t length = 0;
     std::unique_ptr<ByteSource> source = open_data(file, array, length);

@@ -11,6 +11,7 @@
 
 #include "base/file_system.h"
 #include "formats/common/byte_source.h"
+#include "formats/common/wide_integers.h"
 #include "isoatlas/volume.h"
 
 namespace isoatlas {
@@ -38,8 +39,9 @@ struct VtkArray {
 
 /// `count` samples of this type, which the array is known to have, in the byte order of the file (ascii: of this machine). Random access
 /// for appended raw. Throws Error{input}, before allocating that size, when the array cannot hold exactly `count` samples (with skip_rest:
-/// at least that many).
-[[nodiscard]] std::unique_ptr<ByteSource> open_vtk_array(const VtkFile& file, const VtkArray& array, ValueType type, std::int64_t count);
+/// at least that many). wide: the samples are integers, type is f64.
+[[nodiscard]] std::unique_ptr<ByteSource> open_vtk_array(const VtkFile& file, const VtkArray& array, ValueType type, std::int64_t count,
+                                                         WideInteger wide = WideInteger::none);
 
 /// The values of an array of any numeric type. Integers are exact.
 struct VtkValues {

@@ -67,7 +67,7 @@ std::unique_ptr<ByteSource> open_one(const PayloadPlan& plan, const std::string&
     }
     const std::int64_t offset = plan.skip > kMax - begin ? kMax : begin + std::max<std::int64_t>(0, plan.skip);
     if (plan.encoding == Encoding::raw) return open_file_source(path, offset);
-    if (plan.encoding == Encoding::text) return open_text_source(open_file_source(path, offset), plan.type);
+    if (plan.encoding == Encoding::text) return open_text_source(open_file_source(path, offset), plan.type, TextEnd::separator, plan.wide);
     std::unique_ptr<ByteSource> inflated =
         plan.encoding == Encoding::bzip2 ? open_bzip2_source(path, offset) : open_inflate_source(path, offset);
     if (plan.inflated_skip == 0) return inflated;

@@ -38,7 +38,8 @@ struct PayloadPlan {
     std::int64_t line_skip = 0;      ///< then this many lines are skipped
     std::int64_t skip = 0;           ///< then this many bytes; -1: all before the samples at the end (raw only)
     std::int64_t inflated_skip = 0;  ///< then this many decompressed bytes
-    ValueType type = ValueType::u8;
+    ValueType type = ValueType::u8;  ///< of the samples, for texts
+    WideInteger wide = WideInteger::none;
     std::int64_t sample_bytes = 0;                 ///< of all files together, decoded
     bool skip_rest = false, follow_links = false;  ///< as in OpenOptions
 };

@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "formats/common/wide_integers.h"
 #include "isoatlas/volume.h"
 
 namespace isoatlas {
@@ -22,6 +23,7 @@ struct Hdf5Type {
     bool is_number = false;
     bool big_endian = false;
     bool is_half = false;  ///< 16-bit floating point of IEEE 754
+    WideInteger wide = WideInteger::none;
 };
 
 struct Hdf5Array {
@@ -83,8 +85,10 @@ struct Hdf5Place {
     std::array<int, 3> dimension{-1, -1, -1};  ///< of the array, for x, y, z, descending; -1: none
     std::vector<std::int64_t> index{};         ///< along all dimensions; of those of the volume that of its first sample
     std::array<bool, 3> flipped{};             ///< axes whose samples come in reverse order
+    WideIntegers wide{};                       ///< how integers of 64 bits are read
 };
-/// The last dimensions of an array as x, y and z; all others at index 0. Sets also extent, type, byte order, encoding and chunk of info.
+/// The last dimensions of an array as x, y and z; all others at index 0. Sets also extent, type, byte order, encoding and chunk of info,
+/// with a note about integers of 64 bits.
 [[nodiscard]] Hdf5Place place_volume(const Hdf5Array& array, int rank, VolumeInfo& info);
 
 /// Reads info.extent samples of info.type. Throws Error: input (damaged), unsupported (a filter that HDF5 has not; no ValueType).

@@ -126,6 +126,7 @@ Hdf5Type hdf5_type_of(hid_t type) {
         if (size == 1) found.value = is_signed ? ValueType::i8 : ValueType::u8;
         if (size == 2) found.value = is_signed ? ValueType::i16 : ValueType::u16;
         if (size == 3 || size == 4) found.value = is_signed ? ValueType::i32 : ValueType::u32;
+        if (size > 4 && size <= 8) found.value = ValueType::f64, found.wide = is_signed ? WideInteger::int64 : WideInteger::uint64;
     } else if (kind == H5T_FLOAT) {
         found = {.name = "float" + std::to_string(8 * size), .is_number = true};
         if (size <= 8) found.value = size <= 4 ? ValueType::f32 : ValueType::f64;

@@ -19,7 +19,8 @@ namespace {
 constexpr std::size_t kHdf5CacheBytes = std::size_t{64} << 20, kHdf5CacheSlots = 12421;  // decoded chunks kept; a prime
 constexpr std::int64_t kMostChunksAtOnce = 4096;                                         // HDF5 takes memory for each chunk of a selection
 
-hid_t memory_type_of(ValueType type) {
+hid_t memory_type_of(ValueType type, WideInteger wide) {
+    if (wide != WideInteger::none) return wide == WideInteger::int64 ? H5T_NATIVE_INT64 : H5T_NATIVE_UINT64;
     switch (type) {
         case ValueType::u8: return H5T_NATIVE_UINT8;
         case ValueType::i8: return H5T_NATIVE_INT8;
@@ -72,7 +73,8 @@ public:
           place_(std::move(place)),
           rank_(array.dims.size()),
           stored_(*array.type.value),
-          is_half_(array.type.is_half) {
+          is_half_(array.type.is_half),
+          wide_(array.type.wide) {
         info_ = std::move(info);
         tidy_texts(info_);
         info_.slab_readable = true;
@@ -107,6 +109,7 @@ public:
         const std::size_t behind = is_half_ ? out.size() / 2 : 0;  // halves are widened where they are, from the first on
         read_stored(stored, out.data() + behind);
         if (is_half_) widen(out);
+        doubles_of_integers(out, place_.wide, info_.path);
         if (std::ranges::find(place_.flipped, true) != place_.flipped.end()) flip_box(out, box.size(), place_.flipped, size_of(info_.type));
     }
 
@@ -130,7 +133,7 @@ private:
         if (storage_->has_chunks()) open_chunks();
     }
 
-    [[nodiscard]] hid_t memory_type() const { return is_half_ ? static_cast<hid_t>(type_) : memory_type_of(stored_); }
+    [[nodiscard]] hid_t memory_type() const { return is_half_ ? static_cast<hid_t>(type_) : memory_type_of(stored_, wide_); }
     [[nodiscard]] std::size_t memory_bytes() const { return is_half_ ? 2 : size_of(stored_); }
 
     /// Along an axis of the volume, of the whole array or of a chunk.
@@ -254,6 +257,7 @@ private:
     std::size_t rank_;
     ValueType stored_;  ///< as large as info_.type
     bool is_half_;
+    WideInteger wide_;
     Hdf5Handle set_, type_;
     std::unique_ptr<Hdf5Storage> storage_;
     std::unique_ptr<VolumeReader> chunks_;  ///< of the whole array
@@ -276,6 +280,8 @@ Hdf5Place place_volume(const Hdf5Array& array, int rank, VolumeInfo& info) {
         if (!array.chunk.empty()) info.chunk[a] = std::clamp<std::int64_t>(array.chunk[d], 1, std::max<std::int64_t>(array.dims[d], 1));
     }
     if (array.type.value) info.type = *array.type.value;
+    place.wide.type = array.type.wide;
+    if (array.type.wide != WideInteger::none) info.notes.push_back(note_of(array.type.wide));
     info.big_endian = array.type.big_endian;
     info.encoding = array.encoding;
     return place;
@@ -287,9 +293,10 @@ std::unique_ptr<VolumeReader> make_hdf5_reader(VolumeInfo info, std::shared_ptr<
         throw Error(ErrorKind::unsupported, {.file = info.path,
                                              .where = shown_name(array.path),
                                              .what = array.type.name + " samples are not supported",
-                                             .expected = "8 to 32 bit integers, float16, float32 or float64",
+                                             .expected = "8 to 64 bit integers, float16, float32 or float64",
                                              .next = "convert the array, in Python with array.astype(\"float64\")"});
     }
+    ISOATLAS_CHECK((place.wide.type == WideInteger::none) == (array.type.wide == WideInteger::none));
     if (array.type.is_half) info.notes.emplace_back("samples of 16 bits in floating point are read as float32");
     static_cast<void>(sample_bytes(info.path, info.extent, info.type));
     return std::make_unique<Hdf5Reader>(std::move(info), std::move(file), array, place);

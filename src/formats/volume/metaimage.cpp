@@ -20,20 +20,28 @@
 namespace isoatlas {
 namespace {
 
-ValueType sample_type(const MetaHeader& header) {
-    static constexpr NamedType kTypes[] = {
-        {"met_char", ValueType::i8},   {"met_ascii_char", ValueType::i8}, {"met_uchar", ValueType::u8},
-        {"met_short", ValueType::i16}, {"met_ushort", ValueType::u16},    {"met_int", ValueType::i32},
-        {"met_uint", ValueType::u32},  {"met_long", ValueType::i32},  // 4 bytes in MetaIO
-        {"met_ulong", ValueType::u32}, {"met_float", ValueType::f32},     {"met_double", ValueType::f64}};
+NamedType sample_type(const MetaHeader& header) {
+    static constexpr NamedType kTypes[] = {{"met_char", ValueType::i8},
+                                           {"met_ascii_char", ValueType::i8},
+                                           {"met_uchar", ValueType::u8},
+                                           {"met_short", ValueType::i16},
+                                           {"met_ushort", ValueType::u16},
+                                           {"met_int", ValueType::i32},
+                                           {"met_uint", ValueType::u32},
+                                           {"met_long", ValueType::i32},  // 4 bytes in MetaIO
+                                           {"met_ulong", ValueType::u32},
+                                           {"met_float", ValueType::f32},
+                                           {"met_double", ValueType::f64},
+                                           {"met_long_long", ValueType::f64, WideInteger::int64},
+                                           {"met_ulong_long", ValueType::f64, WideInteger::uint64}};
     if (!header.has("elementtype")) header.fail(ErrorKind::input, "ElementType", "is missing", "MET_UCHAR, MET_SHORT, MET_FLOAT, ...");
     const std::string name = lower(header.text("elementtype"));
-    if (const std::optional<ValueType> type = find_type(kTypes, name)) return *type;
-    const bool known = name == "met_long_long" || name == "met_ulong_long" || name == "met_other" || name == "met_string" ||
-                       name == "met_none" || (name.starts_with("met_") && name.ends_with("_array"));
+    if (const NamedType* type = find_named_type(kTypes, name)) return *type;
+    const bool known =
+        name == "met_other" || name == "met_string" || name == "met_none" || (name.starts_with("met_") && name.ends_with("_array"));
     header.fail(known ? ErrorKind::unsupported : ErrorKind::input, "ElementType",
                 in_quotes(header.text("elementtype")) + (known ? " samples are not supported" : " is not a MetaImage type"),
-                "8 to 32 bit integers, MET_FLOAT or MET_DOUBLE", "convert the file to MET_DOUBLE with the program that wrote it");
+                "8 to 64 bit integers, MET_FLOAT or MET_DOUBLE", "convert the file to MET_DOUBLE with the program that wrote it");
 }
 
 /// DimSize, checked: 2 to 4 sizes of at least 1.
@@ -121,14 +129,16 @@ bool big_endian_samples(const MetaHeader& header, Encoding encoding, ValueType t
     return second && size_of(type) > 1;
 }
 
-PayloadPlan payload_plan(const MetaHeader& header, Encoding encoding, ValueType type, std::int64_t bytes, const OpenOptions& options) {
+PayloadPlan payload_plan(const MetaHeader& header, Encoding encoding, const NamedType& type, std::int64_t bytes,
+                         const OpenOptions& options) {
     PayloadPlan plan;
     plan.skip_rest = options.skip_rest;
     plan.follow_links = options.follow_links;
     plan.header_path = header.path;
     plan.files = data_files(header);
     plan.encoding = encoding;
-    plan.type = type;
+    plan.type = type.type;
+    plan.wide = type.wide;
     plan.sample_bytes = bytes;
     const bool local = plan.files.count() == 0;
     plan.offset = local ? header.data_offset : 0;
@@ -195,7 +205,8 @@ std::unique_ptr<VolumeReader> open_metaimage(const std::string& path, const Open
     info.path = path;
     info.format = "MetaImage";
     info.encoding = encoding == Encoding::raw ? "raw" : encoding == Encoding::deflate ? "zlib" : "ascii";
-    info.type = sample_type(header);
+    const NamedType type = sample_type(header);
+    info.type = type.type;
     info.big_endian = big_endian_samples(header, encoding, info.type);
     info.extent.rank = static_cast<int>(std::min<std::size_t>(3, sizes.size()));
     std::copy_n(sizes.begin(), info.extent.rank, info.extent.size.begin());
@@ -205,12 +216,12 @@ std::unique_ptr<VolumeReader> open_metaimage(const std::string& path, const Open
     set_calibration(info, header.number("elementtointensityfunctionslope", 1), header.number("elementtointensityfunctionoffset", 0));
     info.description = printable(header.text("comment"));
     const TimeStep step = choose_time_step(path, options, sizes.size() == 4 ? sizes[3] : 1);
-    const PayloadPlan plan = payload_plan(header, encoding, info.type, sample_bytes(path, info.extent, info.type, step.count), options);
+    const PayloadPlan plan = payload_plan(header, encoding, type, sample_bytes(path, info.extent, info.type, step.count), options);
     if (plan.files.count() > 0) info.data_file = data_file_path(plan, 0);
     check_compressed_size(header, plan, info);
     std::unique_ptr<ByteSource> source = open_payload(plan);
     info.file_bytes = bytes_on_disk(plan);
-    return make_sample_reader(std::move(info), std::move(source), options, step);
+    return make_sample_reader(std::move(info), std::move(source), options, step, type.wide);
 }
 
 }  // namespace isoatlas

@@ -5,6 +5,7 @@
 #include <span>
 #include <string_view>
 
+#include "formats/common/wide_integers.h"
 #include "isoatlas/volume.h"
 
 namespace isoatlas {
@@ -12,14 +13,21 @@ namespace isoatlas {
 struct NamedType {
     std::string_view name;
     ValueType type;
+    WideInteger wide = WideInteger::none;
 };
 
-/// nullopt: the format has no such type, or no samples have it. O(types).
-[[nodiscard]] inline std::optional<ValueType> find_type(std::span<const NamedType> types, std::string_view name) {
+/// nullptr: the format has no such type, or no samples have it. O(types).
+[[nodiscard]] inline const NamedType* find_named_type(std::span<const NamedType> types, std::string_view name) {
     for (const NamedType& known : types) {
-        if (known.name == name) return known.type;
+        if (known.name == name) return &known;
     }
-    return std::nullopt;
+    return nullptr;
+}
+
+/// The same of a table without wide integers.
+[[nodiscard]] inline std::optional<ValueType> find_type(std::span<const NamedType> types, std::string_view name) {
+    const NamedType* found = find_named_type(types, name);
+    return found == nullptr ? std::nullopt : std::optional(found->type);
 }
 
 }  // namespace isoatlas

@@ -200,6 +200,8 @@ std::vector<double> cf_missing(const NetcdfFile& file, const NetcdfVariable& var
     for (const double value : file.numbers(variable, "missing_value")) values.push_back(value);
     constexpr double kDefaultFill = 9.9692099683868690e+36;  // of NetCDF, for samples that were never written
     if (variable.type.value && is_floating(*variable.type.value)) values.push_back(kDefaultFill);
+    if (variable.type.wide == WideInteger::int64) values.push_back(-0x1p63);  // rounded: -9223372036854775806
+    if (variable.type.wide == WideInteger::uint64) values.push_back(0x1p64);  // 18446744073709551614
     std::ranges::sort(values);
     values.erase(std::unique(values.begin(), values.end()), values.end());
     std::erase_if(values, [](double value) { return !std::isfinite(value); });
@@ -241,15 +243,16 @@ private:
 };
 
 /// The convention of files that have no unsigned types.
-void set_unsigned(const NetcdfFile& file, const NetcdfVariable& variable, VolumeInfo& info) {
+void set_unsigned(const NetcdfFile& file, const NetcdfVariable& variable, Hdf5Place& place, VolumeInfo& info) {
     if (lower(file.text(variable, "_Unsigned")) != "true") return;
     if (info.type == ValueType::i8) info.type = ValueType::u8;
     if (info.type == ValueType::i16) info.type = ValueType::u16;
     if (info.type == ValueType::i32) info.type = ValueType::u32;
+    if (place.wide.type == WideInteger::int64) place.wide.type = WideInteger::uint64;
 }
 
-void describe_cf(const NetcdfFile& file, const NetcdfVariable& variable, VolumeInfo& info) {
-    set_unsigned(file, variable, info);
+void describe_cf(const NetcdfFile& file, const NetcdfVariable& variable, Hdf5Place& place, VolumeInfo& info) {
+    set_unsigned(file, variable, place, info);
     info.value_unit = file.text(variable, "units");
     info.description = file.text(variable, "long_name");
     if (info.description.empty()) info.description = file.text(variable, "standard_name");
@@ -288,7 +291,7 @@ std::unique_ptr<VolumeReader> open_cf_variable(const NetcdfFile& file, const Ope
     Hdf5Place place = place_variable(file, *variable, shape, info);
     set_cf_axes(file, *variable, place, info);
     set_cf_times(file, *variable, shape, info.volumes);
-    describe_cf(file, *variable, info);
+    describe_cf(file, *variable, place, info);
     std::vector<double> missing = cf_missing(file, *variable);
     if (!is_floating(info.type)) {
         std::string list;
@@ -297,6 +300,7 @@ std::unique_ptr<VolumeReader> open_cf_variable(const NetcdfFile& file, const Ope
             info.notes.push_back("samples of " + list + " are missing ones (_FillValue): give the value as the no-data value");
         missing.clear();
     }
+    if (place.wide.type != WideInteger::none) std::swap(missing, place.wide.missing);  // before they are float64
     std::unique_ptr<VolumeReader> reader = file.reader(std::move(info), *variable, place);
     return missing.empty() ? std::move(reader) : blank_values(std::move(reader), std::move(missing));
 }

@@ -24,6 +24,7 @@ struct ClassicType {
     const char* name;
     std::int64_t bytes;
     std::optional<ValueType> value;
+    WideInteger wide = WideInteger::none;
 };
 /// By their numbers in the file, from 1 on.
 constexpr std::array<ClassicType, 11> kClassicTypes{{{"int8", 1, ValueType::i8},
@@ -35,8 +36,8 @@ constexpr std::array<ClassicType, 11> kClassicTypes{{{"int8", 1, ValueType::i8},
                                                      {"uint8", 1, ValueType::u8},
                                                      {"uint16", 2, ValueType::u16},
                                                      {"uint32", 4, ValueType::u32},
-                                                     {"int64", 8, std::nullopt},
-                                                     {"uint64", 8, std::nullopt}}};
+                                                     {"int64", 8, ValueType::f64, WideInteger::int64},
+                                                     {"uint64", 8, ValueType::f64, WideInteger::uint64}}};
 constexpr std::size_t kTextType = 1;  // place in the table
 
 struct ClassicAttribute {
@@ -66,8 +67,9 @@ double classic_number(const char* bytes, std::size_t type) {
         std::memcpy(&value, raw.data(), sizeof(T));
         return static_cast<double>(value);
     };
-    if (kClassicTypes[type].value) return visit_type(*kClassicTypes[type].value, as);
-    return std::string_view(kClassicTypes[type].name) == "int64" ? as(std::int64_t{}) : as(std::uint64_t{});
+    const ClassicType& kind = kClassicTypes[type];
+    if (kind.wide != WideInteger::none) return kind.wide == WideInteger::int64 ? as(std::int64_t{}) : as(std::uint64_t{});
+    return visit_type(*kind.value, as);
 }
 
 class ClassicFile final : public NetcdfFile {
@@ -179,7 +181,11 @@ private:
                                       : cursor_.number<std::int64_t>(true, "a variable");
             if (own.begin < 0) cursor_.fail_at_offset("the samples of " + shown_name(variable.path) + " begin before the file");
             const ClassicType& kind = kClassicTypes[own.type];
-            variable.type = {.name = kind.name, .value = kind.value, .is_number = own.type != kTextType, .big_endian = kind.bytes > 1};
+            variable.type = {.name = kind.name,
+                             .value = kind.value,
+                             .is_number = own.type != kTextType,
+                             .big_endian = kind.bytes > 1,
+                             .wide = kind.wide};
             own.is_record = !variable.dimensions.empty() && dimensions[variable.dimensions[0]].is_unlimited;
             variables.push_back(std::move(variable));
             own_.push_back(std::move(own));
@@ -225,10 +231,14 @@ private:
 /// Samples at any strides, big endian.
 class ClassicReader final : public VolumeReader {
 public:
-    ClassicReader(VolumeInfo info, std::int64_t begin, const Index3& stride, const std::array<bool, 3>& flipped)
-        : file_(open_file(info.path)), begin_(begin), stride_(stride), sample_(static_cast<std::int64_t>(size_of(info.type))) {
+    ClassicReader(VolumeInfo info, std::int64_t begin, const Index3& stride, const Hdf5Place& place)
+        : file_(open_file(info.path)),
+          begin_(begin),
+          stride_(stride),
+          sample_(static_cast<std::int64_t>(size_of(info.type))),
+          wide_(place.wide) {
         for (std::size_t a = 0; a < 3; ++a) {
-            if (flipped[a]) begin_ += (info.extent.size[a] - 1) * stride_[a], stride_[a] = -stride_[a];
+            if (place.flipped[a]) begin_ += (info.extent.size[a] - 1) * stride_[a], stride_[a] = -stride_[a];
         }
         info_ = std::move(info);
         tidy_texts(info_);
@@ -255,6 +265,7 @@ public:
                 else
                     read_row(at, part);
                 if (needs_swap(true)) swap_bytes(part, static_cast<std::size_t>(sample_));  // while it is in the cache
+                doubles_of_integers(part, wide_, info_.path);
             }
         }
     }
@@ -281,6 +292,7 @@ private:
     std::int64_t begin_;
     Index3 stride_;
     std::int64_t sample_;
+    WideIntegers wide_;
 };
 
 std::vector<double> ClassicFile::line(const NetcdfVariable& variable) const {
@@ -314,7 +326,7 @@ std::unique_ptr<VolumeReader> ClassicFile::reader(VolumeInfo info, const NetcdfV
         throw Error(ErrorKind::unsupported, {.file = path,
                                              .where = shown_name(variable.path),
                                              .what = std::string(variable.type.name) + " samples are not supported",
-                                             .expected = "8 to 32 bit integers, float32 or float64",
+                                             .expected = "8 to 64 bit integers, float32 or float64",
                                              .next = "convert the variable, for example to float64"});
     }
     static_cast<void>(sample_bytes(path, info.extent, info.type));
@@ -337,7 +349,7 @@ std::unique_ptr<VolumeReader> ClassicFile::reader(VolumeInfo info, const NetcdfV
     for (std::size_t a = 0; a < 3; ++a) {
         if (place.dimension[a] >= 0) stride[a] = own.stride[static_cast<std::size_t>(place.dimension[a])];
     }
-    return std::make_unique<ClassicReader>(std::move(info), begin, stride, place.flipped);
+    return std::make_unique<ClassicReader>(std::move(info), begin, stride, place);
 }
 
 }  // namespace

@@ -57,35 +57,45 @@ std::string find_partner(const std::string& path, std::string_view from, std::st
     return !is_readable(first) && is_readable(second) ? second : first;
 }
 
-ValueType value_type(const std::string& path, const NiftiHeader& header) {
-    struct Known {
-        int code;
-        ValueType type;
-    };
-    static constexpr Known kKnown[] = {{2, ValueType::u8},   {4, ValueType::i16},  {8, ValueType::i32},   {16, ValueType::f32},
-                                       {64, ValueType::f64}, {256, ValueType::i8}, {512, ValueType::u16}, {768, ValueType::u32}};
+struct NiftiType {
+    int code;
+    ValueType type;
+    WideInteger wide = WideInteger::none;
+};
+
+NiftiType value_type(const std::string& path, const NiftiHeader& header) {
+    static constexpr NiftiType kKnown[] = {{2, ValueType::u8},
+                                           {4, ValueType::i16},
+                                           {8, ValueType::i32},
+                                           {16, ValueType::f32},
+                                           {64, ValueType::f64},
+                                           {256, ValueType::i8},
+                                           {512, ValueType::u16},
+                                           {768, ValueType::u32},
+                                           {1024, ValueType::f64, WideInteger::int64},
+                                           {1280, ValueType::f64, WideInteger::uint64}};
     struct Other {
         int code;
         const char* name;
     };
-    static constexpr Other kOther[] = {{1, "single bits"},        {32, "complex numbers"},   {128, "RGB colours"},
-                                       {1024, "64-bit integers"}, {1280, "64-bit integers"}, {1536, "128-bit floating point numbers"},
-                                       {1792, "complex numbers"}, {2048, "complex numbers"}, {2304, "RGBA colours"}};
-    for (const Known& known : kKnown) {
+    static constexpr Other kOther[] = {
+        {1, "single bits"},        {32, "complex numbers"},   {128, "RGB colours"},  {1536, "128-bit floating point numbers"},
+        {1792, "complex numbers"}, {2048, "complex numbers"}, {2304, "RGBA colours"}};
+    for (const NiftiType& known : kKnown) {
         if (known.code != header.datatype) continue;
         if (header.bits != 0 && header.bits != static_cast<int>(8 * size_of(known.type))) {
             bad_header(path, "bitpix", "datatype " + std::to_string(header.datatype) + " with " + std::to_string(header.bits) + " bits",
                        std::to_string(8 * size_of(known.type)));
         }
-        return known.type;
+        return known;
     }
     for (const Other& other : kOther) {
         if (other.code == header.datatype) {
-            unsupported(path, std::string("samples are ") + other.name, "8, 16 or 32-bit integers, 32 or 64-bit floating point",
+            unsupported(path, std::string("samples are ") + other.name, "8 to 64-bit integers, 32 or 64-bit floating point",
                         "convert it, e.g. in Python: nibabel.Nifti1Image(data.astype('float32'), image.affine)");
         }
     }
-    bad_header(path, "datatype", "unknown code " + std::to_string(header.datatype), "2, 4, 8, 16, 64, 256, 512 or 768");
+    bad_header(path, "datatype", "unknown code " + std::to_string(header.datatype), "2, 4, 8, 16, 64, 256, 512, 768, 1024 or 1280");
 }
 
 struct Shape {
@@ -201,7 +211,8 @@ std::unique_ptr<VolumeReader> open_nifti(const std::string& path, const OpenOpti
     info.format = header.is_analyze ? "ANALYZE 7.5" : header.version == 1 ? "NIfTI-1" : "NIfTI-2";
     info.encoding = is_gzip(data_path) ? "gzip" : "raw";
     if (data_path != path) info.data_file = data_path;
-    info.type = value_type(header_path, header);
+    const NiftiType type = value_type(header_path, header);
+    info.type = type.type;
     info.big_endian = header.big_endian;
     const Shape shape = read_shape(header_path, header);
     info.extent = shape.extent;
@@ -212,7 +223,7 @@ std::unique_ptr<VolumeReader> open_nifti(const std::string& path, const OpenOpti
     info.description = header.description;
     info.file_bytes = file_size(header_path) + (data_path == header_path ? 0 : file_size(data_path));
     const std::int64_t offset = data_offset(header_path, header, info.notes);
-    return make_sample_reader(std::move(info), open_samples(data_path, offset), options, step);
+    return make_sample_reader(std::move(info), open_samples(data_path, offset), options, step, type.wide);
 }
 
 }  // namespace isoatlas

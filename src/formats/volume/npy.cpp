@@ -108,26 +108,35 @@ NpyHeader read_npy_header(const std::string& path) {
     return header;
 }
 
-void set_type(const NpyHeader& header, VolumeInfo& info) {
-    static constexpr NamedType kTypes[] = {{"u1", ValueType::u8},  {"b1", ValueType::u8},  {"i1", ValueType::i8},
-                                           {"u2", ValueType::u16}, {"i2", ValueType::i16}, {"u4", ValueType::u32},
-                                           {"i4", ValueType::i32}, {"f4", ValueType::f32}, {"f8", ValueType::f64}};
+WideInteger set_type(const NpyHeader& header, VolumeInfo& info) {
+    static constexpr NamedType kTypes[] = {{"u1", ValueType::u8},
+                                           {"b1", ValueType::u8},
+                                           {"i1", ValueType::i8},
+                                           {"u2", ValueType::u16},
+                                           {"i2", ValueType::i16},
+                                           {"u4", ValueType::u32},
+                                           {"i4", ValueType::i32},
+                                           {"f4", ValueType::f32},
+                                           {"f8", ValueType::f64},
+                                           {"i8", ValueType::f64, WideInteger::int64},
+                                           {"u8", ValueType::f64, WideInteger::uint64}};
     std::string name = header.type;
     char order = '=';
     if (!name.empty() && std::string_view("<>=|").find(name[0]) != std::string_view::npos) {
         order = name[0];
         name.erase(0, 1);
     }
-    if (const std::optional<ValueType> type = find_type(kTypes, name)) {
-        if (order == '|' && size_of(*type) > 1) fail(header.path, ErrorKind::input, "header", "'descr' has no byte order", "'<' or '>'");
-        info.type = *type;
-        info.big_endian = size_of(*type) > 1 && (order == '>' || (order == '=' && std::endian::native == std::endian::big));
+    if (const NamedType* known = find_named_type(kTypes, name)) {
+        info.type = known->type;
+        if (order == '|' && size_of(info.type) > 1)
+            fail(header.path, ErrorKind::input, "header", "'descr' has no byte order", "'<' or '>'");
+        info.big_endian = size_of(info.type) > 1 && (order == '>' || (order == '=' && std::endian::native == std::endian::big));
         if (name == "b1") info.notes.push_back("booleans are read as 0 and 1 of type uint8");
-        return;
+        return known->wide;
     }
     const bool known = !name.empty() && std::string_view("fiucbOSUVMm").find(name[0]) != std::string_view::npos && name.size() > 1;
     fail(header.path, known ? ErrorKind::unsupported : ErrorKind::input, "header", in_quotes(header.type) + " samples are not supported",
-         "8 to 32 bit integers, float32, float64 or bool", "convert: numpy.save(\"out.npy\", array.astype(\"float64\"))");
+         "8 to 64 bit integers, float32, float64 or bool", "convert: numpy.save(\"out.npy\", array.astype(\"float64\"))");
 }
 
 /// Sizes with the fastest axis first.
@@ -153,7 +162,7 @@ std::unique_ptr<VolumeReader> open_npy(const std::string& path, const OpenOption
     info.path = path;
     info.format = "NumPy";
     info.encoding = "raw";
-    set_type(header, info);
+    const WideInteger wide = set_type(header, info);
     const std::vector<std::int64_t> sizes = sizes_of(header);
     info.extent.rank = static_cast<int>(std::min<std::size_t>(3, sizes.size()));
     std::copy_n(sizes.begin(), info.extent.rank, info.extent.size.begin());
@@ -162,7 +171,7 @@ std::unique_ptr<VolumeReader> open_npy(const std::string& path, const OpenOption
     const TimeStep step = choose_time_step(path, options, sizes.size() == 4 ? sizes[3] : 1);
     std::unique_ptr<ByteSource> source = open_file_source(path, header.data_offset);
     info.file_bytes = file_size(path);
-    return make_sample_reader(std::move(info), std::move(source), options, step);
+    return make_sample_reader(std::move(info), std::move(source), options, step, wide);
 }
 
 }  // namespace isoatlas

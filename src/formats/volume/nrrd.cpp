@@ -17,7 +17,7 @@
 namespace isoatlas {
 namespace {
 
-ValueType sample_type(const NrrdHeader& header) {
+NamedType sample_type(const NrrdHeader& header) {
     static constexpr NamedType kTypes[] = {
         {"signed char", ValueType::i8},
         {"int8", ValueType::i8},
@@ -50,13 +50,25 @@ ValueType sample_type(const NrrdHeader& header) {
         {"float32", ValueType::f32},
         {"double", ValueType::f64},
         {"float64", ValueType::f64},
+        {"longlong", ValueType::f64, WideInteger::int64},
+        {"long long", ValueType::f64, WideInteger::int64},
+        {"long long int", ValueType::f64, WideInteger::int64},
+        {"signed long long", ValueType::f64, WideInteger::int64},
+        {"signed long long int", ValueType::f64, WideInteger::int64},
+        {"int64", ValueType::f64, WideInteger::int64},
+        {"int64_t", ValueType::f64, WideInteger::int64},
+        {"ulonglong", ValueType::f64, WideInteger::uint64},
+        {"unsigned long long", ValueType::f64, WideInteger::uint64},
+        {"unsigned long long int", ValueType::f64, WideInteger::uint64},
+        {"uint64", ValueType::f64, WideInteger::uint64},
+        {"uint64_t", ValueType::f64, WideInteger::uint64},
     };
     if (!header.has("type")) header.fail(ErrorKind::input, "type", "is missing", "the type of the samples");
     const std::string name = lower(header.text("type"));
-    if (const std::optional<ValueType> type = find_type(kTypes, name)) return *type;
-    const bool known = name.find("long") != std::string::npos || name.find("int64") != std::string::npos || name == "block";
+    if (const NamedType* type = find_named_type(kTypes, name)) return *type;
+    const bool known = name == "block";
     header.fail(known ? ErrorKind::unsupported : ErrorKind::input, "type",
-                in_quotes(name) + (known ? " samples are not supported" : " is not a NRRD type"), "8 to 32 bit integers, float or double",
+                in_quotes(name) + (known ? " samples are not supported" : " is not a NRRD type"), "8 to 64 bit integers, float or double",
                 "convert the file, for example: unu convert -t double -i IN.nrrd -o OUT.nrrd");
 }
 
@@ -114,7 +126,8 @@ std::int64_t skip_count(const NrrdHeader& header, const std::string& field, std:
     return count;
 }
 
-PayloadPlan payload_plan(const NrrdHeader& header, Encoding encoding, ValueType type, std::int64_t bytes, const OpenOptions& options) {
+PayloadPlan payload_plan(const NrrdHeader& header, Encoding encoding, const NamedType& type, std::int64_t bytes,
+                         const OpenOptions& options) {
     PayloadPlan plan;
     plan.skip_rest = options.skip_rest;
     plan.follow_links = options.follow_links;
@@ -126,7 +139,8 @@ PayloadPlan payload_plan(const NrrdHeader& header, Encoding encoding, ValueType 
     const std::int64_t skip = skip_count(header, "byte skip", encoding == Encoding::raw ? -1 : 0);
     const bool is_compressed = encoding == Encoding::deflate || encoding == Encoding::bzip2;
     (is_compressed ? plan.inflated_skip : plan.skip) = skip;  // NRRD skips bytes after decompression
-    plan.type = type;
+    plan.type = type.type;
+    plan.wide = type.wide;
     plan.sample_bytes = bytes;
     return plan;
 }
@@ -144,7 +158,7 @@ VolumeInfo describe_volume(const NrrdHeader& header, const NrrdAxes& axes, const
     info.path = header.path;
     info.format = "NRRD";
     info.encoding = encoding.name;
-    info.type = sample_type(header);
+    info.type = sample_type(header).type;
     info.big_endian = big_endian_samples(header, info.type, encoding.encoding);
     info.notes.insert(info.notes.end(), header.notes.begin(), header.notes.end());
     info.extent.rank = static_cast<int>(axes.spatial.size());
@@ -171,12 +185,12 @@ std::unique_ptr<VolumeReader> open_nrrd(const std::string& path, const OpenOptio
     VolumeInfo info = describe_volume(header, axes, encoding);
     info.notes.insert(info.notes.begin(), notes.begin(), notes.end());
     const TimeStep step = choose_time_step(path, options, axes.volumes);
-    const PayloadPlan plan =
-        payload_plan(header, encoding.encoding, info.type, sample_bytes(path, info.extent, info.type, step.count), options);
+    const NamedType type = sample_type(header);
+    const PayloadPlan plan = payload_plan(header, encoding.encoding, type, sample_bytes(path, info.extent, info.type, step.count), options);
     std::unique_ptr<ByteSource> source = open_payload(plan);
     if (plan.files.count() > 0) info.data_file = data_file_path(plan, 0);
     info.file_bytes = bytes_on_disk(plan);
-    return make_sample_reader(std::move(info), std::move(source), options, step);
+    return make_sample_reader(std::move(info), std::move(source), options, step, type.wide);
 }
 
 }  // namespace isoatlas

@@ -20,11 +20,13 @@ std::string shape_text(const Extent& extent) {
 
 class SampleReader final : public VolumeReader {
 public:
-    SampleReader(VolumeInfo info, std::unique_ptr<ByteSource> source, bool skip_rest, const TimeStep& step)
+    SampleReader(VolumeInfo info, std::unique_ptr<ByteSource> source, bool skip_rest, const TimeStep& step, WideInteger wide)
         : source_(std::move(source)),
           skip_rest_(skip_rest),
+          wide_{.type = wide},
           slice_bytes_(info.extent.slice() * static_cast<std::int64_t>(size_of(info.type))) {
         info_ = std::move(info);
+        if (wide != WideInteger::none) info_.notes.push_back(note_of(wide));
         tidy_texts(info_);
         info_.slab_readable = source_->random_access();
         info_.volumes.time_steps = step.count, info_.volumes.time_step = step.index;
@@ -39,6 +41,7 @@ public:
         source_->seek(begin_ + z_begin * slice_bytes_);
         source_->read(out);
         if (needs_swap(info_.big_endian)) swap_bytes(out, size_of(info_.type));
+        doubles_of_integers(out, wide_, info_.path);
         if (z_end == info_.extent.size[2] && z_begin < z_end) check_end();
     }
 
@@ -54,6 +57,7 @@ private:
 
     std::unique_ptr<ByteSource> source_;
     bool skip_rest_;
+    WideIntegers wide_;
     std::int64_t slice_bytes_;
     std::int64_t begin_ = 0, wanted_ = 0;  ///< of this volume; of all volumes
     bool end_checked_ = false;
@@ -99,7 +103,7 @@ std::int64_t sample_bytes(const std::string& path, const Extent& extent, ValueTy
 }
 
 std::unique_ptr<VolumeReader> make_sample_reader(VolumeInfo info, std::unique_ptr<ByteSource> source, const OpenOptions& options,
-                                                 const TimeStep& step) {
+                                                 const TimeStep& step, WideInteger wide) {
     const std::int64_t wanted = sample_bytes(info.path, info.extent, info.type, step.count);
     const std::int64_t bound = source->size_bound();
     if (wanted > bound) {
@@ -113,7 +117,7 @@ std::unique_ptr<VolumeReader> make_sample_reader(VolumeInfo info, std::unique_pt
                      .expected = std::to_string(wanted) + " bytes for " + volumes + shape_text(info.extent) + " " + name_of(info.type),
                      .next = "the file is truncated or its header is wrong: get it again"});
     }
-    return std::make_unique<SampleReader>(std::move(info), std::move(source), options.skip_rest, step);
+    return std::make_unique<SampleReader>(std::move(info), std::move(source), options.skip_rest, step, wide);
 }
 
 void tidy_texts(VolumeInfo& info) {

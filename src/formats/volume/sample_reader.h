@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "formats/common/byte_source.h"
+#include "formats/common/wide_integers.h"
 #include "formats/volume/choose.h"
 #include "isoatlas/volume.h"
 
@@ -15,11 +16,13 @@ namespace isoatlas {
 [[nodiscard]] std::int64_t sample_bytes(const std::string& path, const Extent& extent, ValueType type, std::int64_t volumes = 1);
 
 /// Reads info.extent samples of info.type (info.big_endian: swapped) that start at position step.index * bytes of one volume of the
-/// source. Sets info.slab_readable and the time step in info.volumes. Throws Error{input}, before anything is allocated, when the source
-/// cannot hold step.count volumes. Bytes after the last volume are Error{input}, or a note with options.skip_rest: immediately with random
-/// access, else when the last slice of the volume and the rest of the stream have been read.
+/// source. wide: they are integers, info.type is f64; adds a note. Sets info.slab_readable and the time step in info.volumes. Throws
+/// Error{input}, before anything is allocated, when the source cannot hold step.count volumes. Bytes after the last volume are
+/// Error{input}, or a note with options.skip_rest: immediately with random access, else when the last slice of the volume and the rest of
+/// the stream have been read.
 [[nodiscard]] std::unique_ptr<VolumeReader> make_sample_reader(VolumeInfo info, std::unique_ptr<ByteSource> source,
-                                                               const OpenOptions& options, const TimeStep& step = {});
+                                                               const OpenOptions& options, const TimeStep& step = {},
+                                                               WideInteger wide = WideInteger::none);
 
 /// Converts the texts of a header to UTF-8 without control characters. Every reader calls it.
 void tidy_texts(VolumeInfo& info);

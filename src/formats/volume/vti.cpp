@@ -8,6 +8,7 @@
 #include "formats/common/text.h"
 #include "formats/common/vtk_xml.h"
 #include "formats/volume/formats.h"
+#include "formats/volume/named_type.h"
 #include "formats/volume/sample_reader.h"
 #include "formats/volume/vtk_geometry.h"
 
@@ -20,12 +21,21 @@ namespace {
     throw Error(ErrorKind::unsupported, {.file = path, .where = where, .what = what, .expected = expected, .next = next});
 }
 
-ValueType sample_type(const std::string& path, const VtkArray& array) {
-    static constexpr std::string_view kNames[] = {"UInt8", "Int8", "UInt16", "Int16", "UInt32", "Int32", "Float32", "Float64"};
-    const auto found = std::find(std::begin(kNames), std::end(kNames), array.type);
-    if (found != std::end(kNames)) return static_cast<ValueType>(found - std::begin(kNames));
+NamedType sample_type(const std::string& path, const VtkArray& array, bool may_be_wide) {
+    static constexpr NamedType kTypes[] = {{"UInt8", ValueType::u8},
+                                           {"Int8", ValueType::i8},
+                                           {"UInt16", ValueType::u16},
+                                           {"Int16", ValueType::i16},
+                                           {"UInt32", ValueType::u32},
+                                           {"Int32", ValueType::i32},
+                                           {"Float32", ValueType::f32},
+                                           {"Float64", ValueType::f64},
+                                           {"Int64", ValueType::f64, WideInteger::int64},
+                                           {"UInt64", ValueType::f64, WideInteger::uint64}};
+    const NamedType* found = find_named_type(kTypes, array.type);
+    if (found != nullptr && (may_be_wide || found->wide == WideInteger::none)) return *found;
     unsupported(path, "array " + in_quotes(array.name), "samples are of type " + in_quotes(array.type),
-                "Int8 to UInt32, Float32 or Float64",
+                may_be_wide ? "Int8 to UInt64, Float32 or Float64" : "Int8 to UInt32, Float32 or Float64",
                 "convert the array, e.g. in ParaView with the filter Calculator (result type Float or Double)");
 }
 
@@ -124,7 +134,8 @@ std::unique_ptr<VolumeReader> open_vti(const std::string& path, const OpenOption
     info.file_bytes = file_size(path);
     const Choice choice = choose_data(path, piece, info.notes);
     const VtkArray array = describe_vtk_array(choice.array, path);
-    info.type = sample_type(path, array);
+    const NamedType type = sample_type(path, array, /*may_be_wide=*/true);
+    info.type = type.type;
     info.big_endian = array.format == VtkFormat::ascii ? needs_swap(false) : file.big_endian;
     info.encoding = vtk_encoding(file, array);
     info.description = array.name;
@@ -136,13 +147,13 @@ std::unique_ptr<VolumeReader> open_vti(const std::string& path, const OpenOption
     } else {
         const auto open_coordinates = [&](const pugi::xml_node& node, std::int64_t count) {
             const VtkArray line = describe_vtk_array(node, path);
-            return read_doubles(file, line, sample_type(path, line), count);
+            return read_doubles(file, line, sample_type(path, line, /*may_be_wide=*/false).type, count);
         };
         info.geometry = rectilinear_geometry(path, piece, points, choice.cells, open_coordinates);
     }
     if (info.extent.rank == 2) info.notes.push_back("the grid has a single slice along z: read as a 2D image");
-    auto source = open_vtk_array(file, array, info.type, info.extent.voxels());
-    return make_sample_reader(std::move(info), std::move(source), options);
+    auto source = open_vtk_array(file, array, info.type, info.extent.voxels(), type.wide);
+    return make_sample_reader(std::move(info), std::move(source), options, {}, type.wide);
 }
 
 }  // namespace isoatlas

@@ -52,7 +52,7 @@ void set_regular_geometry(const VtkLegacyFile& file, bool cells, VolumeInfo& inf
     throw Error(ErrorKind::unsupported,
                 {.file = file.path,
                  .what = "has no array with one number for each point or cell" + (names.empty() ? "" : "; it has " + names),
-                 .expected = "SCALARS of 8 to 32-bit integers, float or double",
+                 .expected = "SCALARS of 8 to 64-bit integers, float or double",
                  .next = "save one component, e.g. in ParaView with the filter Calculator"});
 }
 
@@ -85,7 +85,7 @@ std::unique_ptr<VolumeReader> open_vtk_legacy(const std::string& path, const Ope
         set_regular_geometry(file, samples.cells, info);
     if (info.extent.rank == 2) info.notes.emplace_back("the grid has a single slice along z: read as a 2D image");
     std::unique_ptr<ByteSource> source = file.open(samples);
-    return make_sample_reader(std::move(info), std::move(source), options);
+    return make_sample_reader(std::move(info), std::move(source), options, {}, samples.wide);
 }
 
 }  // namespace isoatlas

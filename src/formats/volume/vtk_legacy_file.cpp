@@ -19,6 +19,7 @@ struct NumberType {
     std::string_view name;
     int bits;
     std::optional<ValueType> type;
+    WideInteger wide = WideInteger::none;
 };
 constexpr NumberType kNumberTypes[] = {{"unsigned_char", 8, ValueType::u8},
                                        {"char", 8, ValueType::i8},
@@ -30,10 +31,10 @@ constexpr NumberType kNumberTypes[] = {{"unsigned_char", 8, ValueType::u8},
                                        {"float", 32, ValueType::f32},
                                        {"double", 64, ValueType::f64},
                                        {"bit", 1, {}},
-                                       {"long", 64, {}},
-                                       {"unsigned_long", 64, {}},
-                                       {"vtktypeint64", 64, {}},
-                                       {"vtktypeuint64", 64, {}},
+                                       {"long", 64, ValueType::f64, WideInteger::int64},
+                                       {"unsigned_long", 64, ValueType::f64, WideInteger::uint64},
+                                       {"vtktypeint64", 64, ValueType::f64, WideInteger::int64},
+                                       {"vtktypeuint64", 64, ValueType::f64, WideInteger::uint64},
                                        {"vtkidtype", 32, {}}};
 
 class LegacyParser {
@@ -114,7 +115,7 @@ private:
         const std::string type = words_.word();
         (void)words_.line();
         skip_numbers(array, type);
-        if (!array.type) bad("coordinates are of type " + in_quotes(type), "float or double");
+        if (!array.type || array.wide != WideInteger::none) bad("coordinates are of type " + in_quotes(type), "float or double");
         file_.coordinates[axis] = std::move(array);
     }
     void begin_data(bool cells) {
@@ -199,6 +200,7 @@ private:
         const auto* known = std::ranges::find(kNumberTypes, wanted, &NumberType::name);
         if (known == std::end(kNumberTypes)) bad("values of type " + in_quotes(type), "a type of numbers");
         array.type = known->type;
+        array.wide = known->wide;
         array.begin = words_.position();
         const std::int64_t left = words_.left();
         const std::string what = "the file ends inside " + in_quotes(array.name);
@@ -232,7 +234,7 @@ private:
 
 std::unique_ptr<ByteSource> VtkLegacyFile::open(const VtkLegacyArray& array) const {
     std::unique_ptr<ByteSource> bytes = open_file_source(path, array.begin, array.end - array.begin);
-    return binary ? std::move(bytes) : open_text_source(std::move(bytes), *array.type);
+    return binary ? std::move(bytes) : open_text_source(std::move(bytes), *array.type, TextEnd::separator, array.wide);
 }
 
 bool VtkLegacyFile::is_big_endian() const { return binary || needs_swap(false); }

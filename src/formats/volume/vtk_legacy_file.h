@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "formats/common/byte_source.h"
+#include "formats/common/wide_integers.h"
 #include "formats/volume/vtk_geometry.h"
 
 namespace isoatlas {
@@ -17,7 +18,8 @@ namespace isoatlas {
 /// An array of a file.
 struct VtkLegacyArray {
     std::string name{};
-    std::optional<ValueType> type{};  ///< none: not one of the eight
+    std::optional<ValueType> type{};  ///< none: not one of the ten
+    WideInteger wide = WideInteger::none;
     std::int64_t components = 1, tuples = 0;
     double slope = 1;                 ///< value = slope * number
     bool cells = false;               ///< of the cells, not of the points

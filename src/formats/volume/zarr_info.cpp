@@ -175,6 +175,7 @@ VolumeInfo zarr_info(const KeyStore& store, const std::string& path, const ZarrI
     }
     static_cast<void>(sample_bytes(path, info.extent, info.type));  // rejects sizes that do not fit
     if (array.type.kind == ZarrType::Kind::half) info.notes.emplace_back("samples of 16 bits in floating point are read as float32");
+    if (array.type.wide != WideInteger::none) info.notes.push_back(note_of(array.type.wide));
     if (array.type.kind == ZarrType::Kind::boolean) info.notes.emplace_back("booleans are read as 0 and 1 of type uint8");
     if (image.multiscale && image.multiscale->is_one_of_many)
         info.notes.emplace_back("the group has several images (multiscales); the first is read");

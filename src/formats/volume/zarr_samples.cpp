@@ -53,6 +53,8 @@ public:
             index_[place] = at / size[place];
             begin_ += at % size[place] * strides_[place];
         }
+        wide_.type = this->array().type.wide;
+        path_ = info.path;
     }
 
     /// Fills a piece, as large as info.chunk.
@@ -97,11 +99,12 @@ private:
                     out.subspan(static_cast<std::size_t>(place) * sample, static_cast<std::size_t>(end[0] - begin[0]) * sample);
                 if (stored == nullptr) {
                     fill(row, sample);
-                    continue;
+                } else {
+                    const std::int64_t from =
+                        begin_ + (begin[0] - corner[0]) * stride(0) + (y - corner[1]) * stride(1) + (z - corner[2]) * stride(2);
+                    take_row(stored->data() + from, row, sample);
                 }
-                const std::int64_t from =
-                    begin_ + (begin[0] - corner[0]) * stride(0) + (y - corner[1]) * stride(1) + (z - corner[2]) * stride(2);
-                take_row(stored->data() + from, row, sample);
+                doubles_of_integers(row, wide_, path_);
             }
         }
     }
@@ -136,6 +139,8 @@ private:
     std::int64_t begin_ = 0;             ///< of the time step and the channel, inside a chunk
     std::vector<std::int64_t> index_;    ///< of a chunk; those of time and channel stay
     std::vector<std::uint16_t> halves_;
+    WideIntegers wide_;
+    std::string path_;  ///< for messages
 };
 
 }  // namespace

@@ -79,7 +79,7 @@ std::vector<std::string> consolidated_names(KeyStore& store, const ZarrNode& gro
 std::string about_array(const ZarrArray& array) {
     std::string text;
     for (const std::int64_t size : std::views::reverse(array.shape)) text += (text.empty() ? "" : " x ") + std::to_string(size);
-    return text + " " + name_of(array.type.type);
+    return text + " " + array.type.name();
 }
 
 /// Looks through a hierarchy, the images and arrays of a group before those of the groups in it.

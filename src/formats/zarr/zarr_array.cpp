@@ -29,6 +29,8 @@ bool put_integer(Number number, ZarrArray& array) {
 template <class Number>
 bool put_number(Number number, ZarrArray& array) {
     if (array.type.kind == ZarrType::Kind::boolean) return put_value(static_cast<std::uint8_t>(number != 0 ? 1 : 0), array), true;
+    if (array.type.wide == WideInteger::int64) return put_integer<std::int64_t>(number, array);
+    if (array.type.wide == WideInteger::uint64) return put_integer<std::uint64_t>(number, array);
     switch (array.type.type) {
         case ValueType::u8: return put_integer<std::uint8_t>(number, array);
         case ValueType::i8: return put_integer<std::int8_t>(number, array);
@@ -54,7 +56,8 @@ double rounded_to_half(double number) {
 
 bool put_double(double number, ZarrArray& array) {
     if (array.type.kind == ZarrType::Kind::half) return put_value(static_cast<float>(rounded_to_half(number)), array), true;
-    if (array.type.type == ValueType::f64) return put_value(number, array), true;
+    const bool is_integer = !is_floating(array.type.type) || array.type.wide != WideInteger::none;
+    if (array.type.type == ValueType::f64 && !is_integer) return put_value(number, array), true;
     if (array.type.type == ValueType::f32) {
         const bool fits = !std::isfinite(number) || std::abs(number) <= static_cast<double>(std::numeric_limits<float>::max());
         if (fits) put_value(static_cast<float>(number), array);
@@ -75,13 +78,13 @@ bool put_bits(std::string_view digits, ZarrArray& array) {
     }
     if (array.type.kind == ZarrType::Kind::half) return put_value(float_of_half(static_cast<std::uint16_t>(bits)), array), true;
     if (array.type.type == ValueType::f32) return put_value(static_cast<std::uint32_t>(bits), array), true;
-    if (array.type.type == ValueType::f64) return put_value(bits, array), true;
+    if (array.type.type == ValueType::f64 && array.type.wide == WideInteger::none) return put_value(bits, array), true;
     return false;
 }
 
 bool put_text(const std::string& text, ZarrArray& array) {
     if (text.starts_with("0x")) return put_bits(std::string_view(text).substr(2), array);
-    const bool has_no_numbers = !is_floating(array.type.type);
+    const bool has_no_numbers = !is_floating(array.type.type) || array.type.wide != WideInteger::none;
     if (has_no_numbers) return text.empty() && put_number(0, array);
     if (text == "NaN") return put_double(std::numeric_limits<double>::quiet_NaN(), array);
     if (text == "Infinity") return put_double(std::numeric_limits<double>::infinity(), array);
@@ -102,7 +105,7 @@ void set_fill(const KeyStore& store, const std::string& where, const Json& value
         fits = put_double(value.get<double>(), array);
     }
     if (value.is_string()) fits = put_text(value.get<std::string>(), array);
-    if (!fits) bad_zarr(store, where, "is not a value of the type of the samples", std::string("a value of ") + name_of(array.type.type));
+    if (!fits) bad_zarr(store, where, "is not a value of the type of the samples", std::string("a value of ") + array.type.name());
 }
 
 std::int64_t ZarrArray::chunk_samples() const {

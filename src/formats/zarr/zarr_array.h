@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "formats/common/wide_integers.h"
 #include "formats/zarr/codecs.h"
 #include "formats/zarr/zarr_json.h"
 #include "isoatlas/volume.h"
@@ -17,8 +18,10 @@ namespace isoatlas {
 struct ZarrType {
     enum class Kind : std::uint8_t { same, half, boolean } kind = Kind::same;
     ValueType type = ValueType::u8;
+    WideInteger wide = WideInteger::none;
     std::size_t stored_bytes = 1;
     bool big_endian = false;
+    [[nodiscard]] const char* name() const { return wide == WideInteger::none ? name_of(type) : name_of(wide); }
 };
 
 /// Chunks together in one value, with a list of where each begins.
@@ -34,7 +37,7 @@ struct ZarrArray {
     int version = 2;
     std::vector<std::int64_t> shape, chunk;  ///< samples along each axis, the slowest one of C order first; positive
     ZarrType type;
-    std::array<std::byte, 8> fill{};  ///< the value of what is not stored: a sample of type.type in host byte order
+    std::array<std::byte, 8> fill{};  ///< the value of what is not stored: a sample of type.type (wide: of that) in host byte order
     std::vector<std::size_t> order;   ///< the axes in the order of the stored samples, the slowest first
     std::vector<ByteCodec> codecs;    ///< in the order of encoding
     std::string encoding;             ///< of chunks, for the user: "blosc", "raw"

@@ -16,6 +16,7 @@ ZarrType type_of_numpy(const KeyStore& store, const std::string& where, const Js
         std::string_view name;
         ValueType type;
         Kind kind = Kind::same;
+        WideInteger wide = WideInteger::none;
     };
     constexpr Known kKnown[] = {{"u1", ValueType::u8},
                                 {"i1", ValueType::i8},
@@ -26,8 +27,10 @@ ZarrType type_of_numpy(const KeyStore& store, const std::string& where, const Js
                                 {"f4", ValueType::f32},
                                 {"f8", ValueType::f64},
                                 {"b1", ValueType::u8, Kind::boolean},
-                                {"f2", ValueType::f32, Kind::half}};
-    constexpr const char* kExpected = "8 to 32 bit integers, float16, float32, float64 or bool";
+                                {"f2", ValueType::f32, Kind::half},
+                                {"i8", ValueType::f64, Kind::same, WideInteger::int64},
+                                {"u8", ValueType::f64, Kind::same, WideInteger::uint64}};
+    constexpr const char* kExpected = "8 to 64 bit integers, float16, float32, float64 or bool";
     if (value == nullptr) bad_zarr(store, where, "is missing", kExpected);
     if (value->is_array())
         unsupported_zarr(store, where, "the samples have several values each", kExpected, "write one of them as an array");
@@ -39,7 +42,7 @@ ZarrType type_of_numpy(const KeyStore& store, const std::string& where, const Js
         if (kind != known.name) continue;
         const std::size_t bytes = known.kind == Kind::half ? 2 : size_of(known.type);
         if (order == '|' && bytes > 1) bad_zarr(store, where, "has no byte order", "\"<\" or \">\" before the type");
-        return {.kind = known.kind, .type = known.type, .stored_bytes = bytes, .big_endian = order == '>' && bytes > 1};
+        return {.kind = known.kind, .type = known.type, .wide = known.wide, .stored_bytes = bytes, .big_endian = order == '>' && bytes > 1};
     }
     unsupported_zarr(store, where, in_quotes(name) + " samples are not supported", kExpected,
                      "write the array again in another type, in Python with array.astype(\"float64\")");

@@ -16,6 +16,7 @@ ZarrType type_of_name(const KeyStore& store, const std::string& where, const Jso
         std::string_view name;
         ValueType type;
         Kind kind = Kind::same;
+        WideInteger wide = WideInteger::none;
     };
     constexpr Known kKnown[] = {{"uint8", ValueType::u8},
                                 {"int8", ValueType::i8},
@@ -26,13 +27,16 @@ ZarrType type_of_name(const KeyStore& store, const std::string& where, const Jso
                                 {"float32", ValueType::f32},
                                 {"float64", ValueType::f64},
                                 {"bool", ValueType::u8, Kind::boolean},
-                                {"float16", ValueType::f32, Kind::half}};
-    constexpr const char* kExpected = "8 to 32 bit integers, float16, float32, float64 or bool";
+                                {"float16", ValueType::f32, Kind::half},
+                                {"int64", ValueType::f64, Kind::same, WideInteger::int64},
+                                {"uint64", ValueType::f64, Kind::same, WideInteger::uint64}};
+    constexpr const char* kExpected = "8 to 64 bit integers, float16, float32, float64 or bool";
     if (value == nullptr) bad_zarr(store, where, "is missing", kExpected);
     const std::string name = value->is_string() ? value->get<std::string>() : text_member(*value, "name");
     for (const Known& known : kKnown) {
-        if (name == known.name)
-            return {.kind = known.kind, .type = known.type, .stored_bytes = known.kind == Kind::half ? 2 : size_of(known.type)};
+        if (name != known.name) continue;
+        const std::size_t bytes = known.kind == Kind::half ? 2 : size_of(known.type);
+        return {.kind = known.kind, .type = known.type, .wide = known.wide, .stored_bytes = bytes};
     }
     if (name.empty()) bad_zarr(store, where, "is not valid", "a type such as \"float32\"");
     unsupported_zarr(store, where, in_quotes(name) + " samples are not supported", kExpected,

@@ -161,7 +161,7 @@ TEST(MetaImage, Refusals) {
         std::string words;
     };
     const std::vector<Case> cases = {
-        {header("MET_LONG_LONG", ""), ErrorKind::unsupported, "MET_DOUBLE"},
+        {header("MET_STRING", ""), ErrorKind::unsupported, "MET_DOUBLE"},
         {header("MET_FLOAT_ARRAY", ""), ErrorKind::unsupported, "MET_FLOAT_ARRAY"},
         {header("MET_FLOOT", ""), ErrorKind::input, "not a MetaImage type"},
         {header("MET_UCHAR", "ElementNumberOfChannels = 3\n"), ErrorKind::unsupported, "3 values"},

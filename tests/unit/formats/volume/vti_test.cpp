@@ -272,7 +272,7 @@ TEST(Vti, WhatIsNotRead) {
     };
     expect_helpful(failure("type=\"ImageData\"", "type=\"PolyData\"", good), ErrorKind::unsupported, "PolyData");
     expect_helpful(failure("type=\"ImageData\"", "type=\"PImageData\"", good), ErrorKind::unsupported, "PImageData");
-    expect_helpful(failure("\"UInt8\"", "\"Int64\"", good), ErrorKind::unsupported, "Int64");
+    expect_helpful(failure("\"UInt8\"", "\"Bit\"", good), ErrorKind::unsupported, "Bit");
     expect_helpful(failure("</Piece>", "</Piece><Piece Extent=\"0 1 0 1 0 1\"/>", good), ErrorKind::unsupported, "several pieces");
     expect_helpful(failure("version=\"1.0\" ", "version=\"1.0\" compressor=\"vtkLZ4DataCompressor\" ", good), ErrorKind::unsupported,
                    "LZ4");
