@@ -25,12 +25,12 @@ std::uint64_t magnitude_of(std::int64_t value) {
 }
 
 template <class Integer>
-void convert(std::span<std::byte> samples, std::span<const double> missing, const std::string& file) {
+void convert(std::span<std::byte> samples, std::span<const std::uint64_t> missing, const std::string& file) {
     for (std::size_t at = 0; at < samples.size(); at += sizeof(Integer)) {
         Integer integer = 0;
         std::memcpy(&integer, samples.data() + at, sizeof integer);
         auto value = static_cast<double>(integer);
-        if (std::ranges::find(missing, value) != missing.end()) {
+        if (std::ranges::find(missing, static_cast<std::uint64_t>(integer)) != missing.end()) {
             value = std::numeric_limits<double>::quiet_NaN();
         } else if (!is_double(magnitude_of(integer))) {
             throw Error(ErrorKind::unsupported,

@@ -17,7 +17,7 @@ enum class WideInteger : std::uint8_t { none, int64, uint64 };
 /// How samples that a file has as integers of 64 bits become float64.
 struct WideIntegers {
     WideInteger type = WideInteger::none;  ///< none: samples stay what they are
-    std::vector<double> missing{};         ///< integers that round to one of these become NaN
+    std::vector<std::uint64_t> missing{};  ///< integers that become NaN: their bits
 };
 
 /// Replaces the bits of each integer by those of the float64 of its value. file: for messages.

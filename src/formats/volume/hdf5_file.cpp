@@ -337,6 +337,16 @@ std::vector<double> Hdf5File::numbers(const std::string& object, const std::stri
     return values;
 }
 
+std::vector<std::uint64_t> Hdf5File::integers(const std::string& object, const std::string& attribute, WideInteger type) const {
+    const std::lock_guard lock(hdf5_mutex());
+    const OpenAttribute open = open_attribute(*data_, object, attribute);
+    if (open.count == 0 || !hdf5_type_of(open.type).is_number) return {};
+    std::vector<std::uint64_t> values(static_cast<std::size_t>(open.count));
+    const hid_t memory = type == WideInteger::int64 ? H5T_NATIVE_INT64 : H5T_NATIVE_UINT64;
+    if (H5Aread(open.attribute, memory, values.data()) < 0) values.clear();
+    return values;
+}
+
 std::string join_path(const std::string& group, const std::string& name) { return group + (group.ends_with('/') ? "" : "/") + name; }
 
 }  // namespace isoatlas

@@ -68,6 +68,8 @@ public:
     [[nodiscard]] std::string text(const std::string& object, const std::string& attribute) const;
     /// Numbers of an attribute; empty: there is none, they are no numbers or more than 65,536.
     [[nodiscard]] std::vector<double> numbers(const std::string& object, const std::string& attribute) const;
+    /// The bits of the same as integers of 64 bits.
+    [[nodiscard]] std::vector<std::uint64_t> integers(const std::string& object, const std::string& attribute, WideInteger type) const;
 
     [[nodiscard]] const std::string& path() const;
     struct Data;

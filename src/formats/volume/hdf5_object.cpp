@@ -151,6 +151,14 @@ Hdf5Type hdf5_type_of(hid_t type) {
     return found;
 }
 
+haddr_t offset_of_samples(hid_t set) {
+    const Hdf5Handle file(H5Iget_file_id(set), H5Fclose), creation(H5Fget_create_plist(file), H5Pclose);
+    hsize_t block = 0;
+    H5Pget_userblock(creation, &block);
+    const haddr_t begin = H5Dget_offset(set);
+    return begin == HADDR_UNDEF + block ? HADDR_UNDEF : begin;  // HDF5 adds the size of the user block to any
+}
+
 void Hdf5File::Data::check_storage(hid_t set, const std::string& path) {
     const Hdf5Handle creation(H5Dget_create_plist(set), H5Pclose), own(H5Iget_file_id(set), H5Fclose), type(H5Dget_type(set), H5Tclose);
     hsize_t size = 0;
@@ -169,7 +177,7 @@ void Hdf5File::Data::check_storage(hid_t set, const std::string& path) {
     }
     if (layout != H5D_CONTIGUOUS) return;
     if (H5Pget_external_count(creation) > 0) return check_external(access, name.data(), creation);
-    const haddr_t begin = H5Dget_offset(set);
+    const haddr_t begin = offset_of_samples(set);
     const hsize_t bytes = H5Dget_storage_size(set);
     if (begin != HADDR_UNDEF && (begin > size || bytes > size - begin)) samples_missing(access.path, path, begin + bytes, size);
 }

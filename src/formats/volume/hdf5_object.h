@@ -44,6 +44,9 @@ struct Hdf5File::Data {
 
 [[nodiscard]] Hdf5Type hdf5_type_of(hid_t type);
 
+/// Where the samples of an array without chunks begin in their file; HADDR_UNDEF: none was written.
+[[nodiscard]] haddr_t offset_of_samples(hid_t set);
+
 struct Hdf5Filter {
     H5Z_filter_t id;
     std::string name;  ///< as the file calls it, or empty

@@ -137,7 +137,7 @@ void Hdf5Storage::open_bytes(hid_t creation, std::uint64_t bytes) {
         if (H5Dread(set_, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, value_.data()) < 0) file_->data().fail(path_, "the samples cannot be read");
         return;
     }
-    const haddr_t begin = H5Dget_offset(set_);
+    const haddr_t begin = offset_of_samples(set_);
     if (begin == HADDR_UNDEF) {
         kind_ = Kind::empty;
         return;

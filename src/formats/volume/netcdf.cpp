@@ -200,11 +200,19 @@ std::vector<double> cf_missing(const NetcdfFile& file, const NetcdfVariable& var
     for (const double value : file.numbers(variable, "missing_value")) values.push_back(value);
     constexpr double kDefaultFill = 9.9692099683868690e+36;  // of NetCDF, for samples that were never written
     if (variable.type.value && is_floating(*variable.type.value)) values.push_back(kDefaultFill);
-    if (variable.type.wide == WideInteger::int64) values.push_back(-0x1p63);  // rounded: -9223372036854775806
-    if (variable.type.wide == WideInteger::uint64) values.push_back(0x1p64);  // 18446744073709551614
     std::ranges::sort(values);
     values.erase(std::unique(values.begin(), values.end()), values.end());
     std::erase_if(values, [](double value) { return !std::isfinite(value); });
+    return values;
+}
+
+/// The bits of the same of a variable of 64-bit integers.
+std::vector<std::uint64_t> cf_missing_integers(const NetcdfFile& file, const NetcdfVariable& variable) {
+    std::vector<std::uint64_t> values = file.integers(variable, "_FillValue");
+    for (const std::uint64_t value : file.integers(variable, "missing_value")) values.push_back(value);
+    constexpr std::int64_t kDefaultFill = -9223372036854775806;  // of NetCDF, for samples that were never written
+    constexpr std::uint64_t kDefaultUnsignedFill = 18446744073709551614U;
+    values.push_back(variable.type.wide == WideInteger::int64 ? static_cast<std::uint64_t>(kDefaultFill) : kDefaultUnsignedFill);
     return values;
 }
 
@@ -292,7 +300,9 @@ std::unique_ptr<VolumeReader> open_cf_variable(const NetcdfFile& file, const Ope
     set_cf_axes(file, *variable, place, info);
     set_cf_times(file, *variable, shape, info.volumes);
     describe_cf(file, *variable, place, info);
-    std::vector<double> missing = cf_missing(file, *variable);
+    const bool is_wide = place.wide.type != WideInteger::none;
+    if (is_wide) place.wide.missing = cf_missing_integers(file, *variable);
+    std::vector<double> missing = is_wide ? std::vector<double>() : cf_missing(file, *variable);
     if (!is_floating(info.type)) {
         std::string list;
         for (const double value : missing) list += (list.empty() ? "" : ", ") + cf_number(value);
@@ -300,7 +310,6 @@ std::unique_ptr<VolumeReader> open_cf_variable(const NetcdfFile& file, const Ope
             info.notes.push_back("samples of " + list + " are missing ones (_FillValue): give the value as the no-data value");
         missing.clear();
     }
-    if (place.wide.type != WideInteger::none) std::swap(missing, place.wide.missing);  // before they are float64
     std::unique_ptr<VolumeReader> reader = file.reader(std::move(info), *variable, place);
     return missing.empty() ? std::move(reader) : blank_values(std::move(reader), std::move(missing));
 }

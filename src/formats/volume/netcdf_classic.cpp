@@ -1,6 +1,7 @@
 // NetCDF files of the classic format: version 1, 2 (64-bit offsets) and 5 (64-bit sizes).
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstring>
 #include <limits>
 #include <map>
@@ -43,6 +44,7 @@ constexpr std::size_t kTextType = 1;  // place in the table
 struct ClassicAttribute {
     std::string text{};
     std::vector<double> numbers{};
+    std::vector<std::uint64_t> integers{};  ///< bits of those that are integers
 };
 
 struct ClassicVariable {
@@ -72,6 +74,18 @@ double classic_number(const char* bytes, std::size_t type) {
     return visit_type(*kind.value, as);
 }
 
+/// nullopt: it is none.
+std::optional<std::uint64_t> classic_integer(const char* bytes, std::size_t type) {
+    if (kClassicTypes[type].wide == WideInteger::none) {
+        const double number = classic_number(bytes, type);
+        if (std::trunc(number) != number || std::abs(number) > 0x1p53) return std::nullopt;
+        return static_cast<std::uint64_t>(static_cast<std::int64_t>(number));
+    }
+    std::uint64_t bits = 0;
+    for (std::size_t i = 0; i < sizeof bits; ++i) bits = bits << 8 | static_cast<unsigned char>(bytes[i]);
+    return bits;
+}
+
 class ClassicFile final : public NetcdfFile {
 public:
     ClassicFile(const std::string& file, std::string_view header, std::int64_t size) : size_(size), cursor_(header, path) {
@@ -93,6 +107,10 @@ public:
     [[nodiscard]] std::vector<double> numbers(const NetcdfVariable& variable, const std::string& attribute) const override {
         const ClassicAttribute* found = find(variable, attribute);
         return found == nullptr ? std::vector<double>() : found->numbers;
+    }
+    [[nodiscard]] std::vector<std::uint64_t> integers(const NetcdfVariable& variable, const std::string& attribute) const override {
+        const ClassicAttribute* found = find(variable, attribute);
+        return found == nullptr ? std::vector<std::uint64_t>() : found->integers;
     }
     [[nodiscard]] Hdf5Array array(const NetcdfVariable& variable) const override {
         Hdf5Array array{.path = variable.path, .type = variable.type, .encoding = "raw"};
@@ -158,8 +176,10 @@ private:
                 attribute.text = content.substr(0, content.find('\0'));
                 continue;
             }
-            for (std::size_t i = 0; i < content.size(); i += static_cast<std::size_t>(kClassicTypes[kind].bytes))
+            for (std::size_t i = 0; i < content.size(); i += static_cast<std::size_t>(kClassicTypes[kind].bytes)) {
                 attribute.numbers.push_back(classic_number(content.data() + i, kind));
+                if (const auto integer = classic_integer(content.data() + i, kind)) attribute.integers.push_back(*integer);
+            }
         }
         return attributes;
     }

@@ -34,6 +34,8 @@ public:
     /// Of an attribute of a variable; empty: there is none.
     [[nodiscard]] virtual std::string text(const NetcdfVariable& variable, const std::string& attribute) const = 0;
     [[nodiscard]] virtual std::vector<double> numbers(const NetcdfVariable& variable, const std::string& attribute) const = 0;
+    /// The bits of the numbers of an attribute of a variable of 64-bit integers.
+    [[nodiscard]] virtual std::vector<std::uint64_t> integers(const NetcdfVariable& variable, const std::string& attribute) const = 0;
     /// All numbers of a variable of one dimension. Throws Error: input, unsupported.
     [[nodiscard]] virtual std::vector<double> line(const NetcdfVariable& variable) const = 0;
     /// Sizes, type and encoding of a variable.

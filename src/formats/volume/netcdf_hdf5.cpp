@@ -41,6 +41,9 @@ public:
     [[nodiscard]] std::vector<double> numbers(const NetcdfVariable& variable, const std::string& attribute) const override {
         return file_->numbers(variable.path, attribute);
     }
+    [[nodiscard]] std::vector<std::uint64_t> integers(const NetcdfVariable& variable, const std::string& attribute) const override {
+        return file_->integers(variable.path, attribute, variable.type.wide);
+    }
     [[nodiscard]] std::vector<double> line(const NetcdfVariable& variable) const override { return file_->line(variable.path); }
     [[nodiscard]] Hdf5Array array(const NetcdfVariable& variable) const override {
         return arrays_[static_cast<std::size_t>(&variable - variables.data())];

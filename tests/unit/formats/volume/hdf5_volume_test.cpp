@@ -148,6 +148,7 @@ TEST(Hdf5Volume, ChoicesAndRefusals) {
     };
     refused("/line", ErrorKind::unsupported, "4 uint8");
     EXPECT_EQ(open_volume(folder / "v.h5", with_dataset("/long"))->info().type, ValueType::f64);
+    EXPECT_EQ(samples_of(folder / "v.h5", with_dataset("/long")), std::string(32, '\0'));  // never written, behind a user block
     refused("/complex", ErrorKind::unsupported, "compound");
     refused("/nothing", ErrorKind::usage, "nothing");
     {

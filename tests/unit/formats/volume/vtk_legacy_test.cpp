@@ -77,7 +77,7 @@ TEST(VtkLegacy, Refusals) {
     std::string many;
     for (int i = 0; i < 21; ++i) many += "VECTORS v" + std::to_string(i) + " float\n" + numbers(72);
     refused(kGrid + "POINT_DATA 24\n" + many, ErrorKind::unsupported, "'v19', ...");
-    refused(kGrid + "POINT_DATA 24\nSCALARS s long\n" + numbers(24), ErrorKind::unsupported, "no array");
+    refused(kGrid + "POINT_DATA 24\nSCALARS s vtkIdType\n" + numbers(24), ErrorKind::unsupported, "no array");
     refused(kGrid + "POINT_DATA 25\n", ErrorKind::input, "25 values on a grid with 24");
     refused("POINT_DATA 24\nSCALARS s int\n" + numbers(24), ErrorKind::input, "no dimensions");
     refused(kGrid + "POINT_DATA 24\nSCALARS s float 9\n", ErrorKind::input, "1 to 4");
