@@ -77,10 +77,13 @@ NiftiType value_type(const std::string& path, const NiftiHeader& header) {
     struct Other {
         int code;
         const char* name;
+        const char* next = "convert it, e.g. in Python: nibabel.Nifti1Image(data.astype('float32'), image.affine)";
     };
+    static constexpr const char* kOneColour =
+        "save one of them, e.g. in Python: nibabel.Nifti1Image(image.dataobj[...]['R'], image.affine)";
     static constexpr Other kOther[] = {
-        {1, "single bits"},        {32, "complex numbers"},   {128, "RGB colours"},  {1536, "128-bit floating point numbers"},
-        {1792, "complex numbers"}, {2048, "complex numbers"}, {2304, "RGBA colours"}};
+        {1, "single bits"},        {32, "complex numbers"},   {128, "RGB colours", kOneColour},  {1536, "128-bit floating point numbers"},
+        {1792, "complex numbers"}, {2048, "complex numbers"}, {2304, "RGBA colours", kOneColour}};
     for (const NiftiType& known : kKnown) {
         if (known.code != header.datatype) continue;
         if (header.bits != 0 && header.bits != static_cast<int>(8 * size_of(known.type))) {
@@ -91,8 +94,7 @@ NiftiType value_type(const std::string& path, const NiftiHeader& header) {
     }
     for (const Other& other : kOther) {
         if (other.code == header.datatype) {
-            unsupported(path, std::string("samples are ") + other.name, "8 to 64-bit integers, 32 or 64-bit floating point",
-                        "convert it, e.g. in Python: nibabel.Nifti1Image(data.astype('float32'), image.affine)");
+            unsupported(path, std::string("samples are ") + other.name, "8 to 64-bit integers, 32 or 64-bit floating point", other.next);
         }
     }
     bad_header(path, "datatype", "unknown code " + std::to_string(header.datatype), "2, 4, 8, 16, 64, 256, 512, 768, 1024 or 1280");
