@@ -34,7 +34,7 @@ def cli(tmp_path):
         pytest.skip("ISOATLAS_CLI does not name the command line")
 
     def run(*words):
-        done = subprocess.run([CLI, *map(str, words)], cwd=tmp_path, capture_output=True, text=True)
+        done = subprocess.run([CLI, *map(str, words)], cwd=tmp_path, capture_output=True, encoding="utf-8")
         assert done.returncode == 0, done.stderr
         return done.stdout
 
