@@ -328,23 +328,27 @@ std::string Hdf5File::text(const std::string& object, const std::string& attribu
     return std::string(trim(whole));
 }
 
-std::vector<double> Hdf5File::numbers(const std::string& object, const std::string& attribute) const {
+namespace {
+
+template <class Number>
+std::vector<Number> attribute_numbers(Hdf5File::Data& data, const std::string& object, const std::string& attribute, hid_t memory) {
     const std::lock_guard lock(hdf5_mutex());
-    const OpenAttribute open = open_attribute(*data_, object, attribute);
+    const OpenAttribute open = open_attribute(data, object, attribute);
     if (open.count == 0 || !hdf5_type_of(open.type).is_number) return {};
-    std::vector<double> values(static_cast<std::size_t>(open.count));
-    if (H5Aread(open.attribute, H5T_NATIVE_DOUBLE, values.data()) < 0) values.clear();
+    std::vector<Number> values(static_cast<std::size_t>(open.count));
+    if (H5Aread(open.attribute, memory, values.data()) < 0) values.clear();
     return values;
 }
 
+}  // namespace
+
+std::vector<double> Hdf5File::numbers(const std::string& object, const std::string& attribute) const {
+    return attribute_numbers<double>(*data_, object, attribute, H5T_NATIVE_DOUBLE);
+}
+
 std::vector<std::uint64_t> Hdf5File::integers(const std::string& object, const std::string& attribute, WideInteger type) const {
-    const std::lock_guard lock(hdf5_mutex());
-    const OpenAttribute open = open_attribute(*data_, object, attribute);
-    if (open.count == 0 || !hdf5_type_of(open.type).is_number) return {};
-    std::vector<std::uint64_t> values(static_cast<std::size_t>(open.count));
     const hid_t memory = type == WideInteger::int64 ? H5T_NATIVE_INT64 : H5T_NATIVE_UINT64;
-    if (H5Aread(open.attribute, memory, values.data()) < 0) values.clear();
-    return values;
+    return attribute_numbers<std::uint64_t>(*data_, object, attribute, memory);
 }
 
 std::string join_path(const std::string& group, const std::string& name) { return group + (group.ends_with('/') ? "" : "/") + name; }

@@ -153,12 +153,12 @@ double key_value(const NrrdHeader& header, const std::string& key, double otherw
     return *number;
 }
 
-VolumeInfo describe_volume(const NrrdHeader& header, const NrrdAxes& axes, const NamedEncoding& encoding) {
+VolumeInfo describe_volume(const NrrdHeader& header, const NrrdAxes& axes, const NamedEncoding& encoding, ValueType type) {
     VolumeInfo info;
     info.path = header.path;
     info.format = "NRRD";
     info.encoding = encoding.name;
-    info.type = sample_type(header).type;
+    info.type = type;
     info.big_endian = big_endian_samples(header, info.type, encoding.encoding);
     info.notes.insert(info.notes.end(), header.notes.begin(), header.notes.end());
     info.extent.rank = static_cast<int>(axes.spatial.size());
@@ -182,10 +182,10 @@ std::unique_ptr<VolumeReader> open_nrrd(const std::string& path, const OpenOptio
     std::vector<std::string> notes;
     const NrrdAxes axes = choose_nrrd_axes(header, notes);
     const NamedEncoding encoding = sample_encoding(header);
-    VolumeInfo info = describe_volume(header, axes, encoding);
+    const NamedType type = sample_type(header);
+    VolumeInfo info = describe_volume(header, axes, encoding, type.type);
     info.notes.insert(info.notes.begin(), notes.begin(), notes.end());
     const TimeStep step = choose_time_step(path, options, axes.volumes);
-    const NamedType type = sample_type(header);
     const PayloadPlan plan = payload_plan(header, encoding.encoding, type, sample_bytes(path, info.extent, info.type, step.count), options);
     std::unique_ptr<ByteSource> source = open_payload(plan);
     if (plan.files.count() > 0) info.data_file = data_file_path(plan, 0);
