@@ -49,7 +49,7 @@ class Viewer:
     def stop(self):
         """Ctrl-C; the exit code and what it has said."""
         self.process.send_signal(signal.SIGINT)
-        _, said = self.process.communicate(timeout=30)
+        _, said = self.process.communicate(timeout=300)
         return self.process.returncode, said
 
     def request(self, path, token=None, **headers):
