@@ -11,11 +11,14 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cerrno>
 #include <chrono>
+#include <cstddef>
 #include <latch>
 #include <map>
 #include <memory>
 #include <mutex>
+#include <new>
 #include <stdexcept>
 #include <string_view>
 #include <system_error>
@@ -34,27 +37,43 @@ using Clock = std::chrono::steady_clock;
 constexpr const char* kRefusal = "pthread_";          ///< oneTBB reports a refused thread by a runtime_error with the name of the call
 constexpr std::chrono::milliseconds kStartTime{100};  ///< others may keep the threads of an arena busy
 
-/// Starts and ends as many threads as oneTBB will. The C library keeps their stacks, which the next threads get.
-/// Throws Error{resource} where the system refuses one.
+/// Of a thread that starts: for what oneTBB allocates there, whose failure would end the process.
+constexpr std::size_t kRoom = 1 << 16;
+
+struct Trial {
+    std::latch all_started{1};
+    std::atomic<int> without_room = 0;
+};
+
+void* start_with_room(void* trial_of_all) {
+    auto& trial = *static_cast<Trial*>(trial_of_all);
+    const std::unique_ptr<volatile std::byte[]> room(new (std::nothrow) volatile std::byte[kRoom]);
+    if (room)
+        room[0] = std::byte{1};  // or the compiler may leave it out
+    else
+        ++trial.without_room;
+    trial.all_started.wait();
+    return nullptr;
+}
+
+/// Starts and ends as many threads as oneTBB will. The C library keeps their stacks and what they allocate, which the next threads get.
+/// Throws Error{resource} where the system refuses a thread or its memory.
 void check_can_start(int count) {
+    std::vector<pthread_t> threads;
+    threads.reserve(count);
     pthread_attr_t attributes;
     (void)pthread_attr_init(&attributes);
     (void)pthread_attr_setstacksize(&attributes, tbb::global_control::active_value(tbb::global_control::thread_stack_size));
-    std::vector<pthread_t> threads;
-    threads.reserve(count);
-    std::latch all_started(1);
-    const auto wait = [](void* latch) -> void* {
-        static_cast<std::latch*>(latch)->wait();
-        return nullptr;
-    };
+    Trial trial;
     int refusal = 0;
     for (pthread_t thread{}; refusal == 0 && std::ssize(threads) < count;) {
-        refusal = pthread_create(&thread, &attributes, wait, &all_started);
+        refusal = pthread_create(&thread, &attributes, start_with_room, &trial);
         if (refusal == 0) threads.push_back(thread);
     }
-    all_started.count_down();
+    trial.all_started.count_down();
     for (const pthread_t thread : threads) (void)pthread_join(thread, nullptr);
     (void)pthread_attr_destroy(&attributes);
+    if (refusal == 0 && trial.without_room > 0) refusal = ENOMEM;
     if (refusal != 0) throw threads_refused(std::generic_category().message(refusal));
 }
 
