@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "formats/common/byte_source.h"
+#include "formats/common/wide_integers.h"
 #include "isoatlas/volume.h"
 
 namespace isoatlas {
