@@ -13,7 +13,7 @@ step() {
 
 step "packages" scripts/bootstrap.sh test
 step "format" scripts/format.sh
-step "lint" scripts/lint.py --most --since HEAD~40 # more commits than are shared at once; make lint looks at everything
+step "lint" scripts/lint.py --most --since HEAD~25 # more commits than are shared at once; make lint looks at everything
 step "build" scripts/build.sh dev
 log=build/dev/Testing/Temporary/LastTest.log
 step "tests" sh -c 'ctest --preset dev || { status=$?; python3 -B scripts/failed_tests.py "$0"; exit $status; }' "$log"

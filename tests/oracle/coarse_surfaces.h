@@ -83,17 +83,17 @@ inline const Shape kShapes[] = {
      },
      0.5},
     {"sheets one voxel apart",
-     {3, {40, 34, 9}},
+     {3, {34, 20, 9}},
      [](double x, double y, double z) { return std::sin(3.14159 * (z + 0.3 * std::sin(x / 7) + 0.3 * std::cos(y / 5))); },
      0.1},
     {"nested shells a voxel thin",
-     {3, {34, 34, 34}},
+     {3, {34, 24, 24}},
      [](double x, double y, double z) {
          const double r = std::sqrt((x - 17) * (x - 17) + (y - 17.3) * (y - 17.3) + (z - 16.8) * (z - 16.8));
          return std::sin(3.14159 * r / 1.3);
      },
      0.2},
-    {"noise", {3, {40, 34, 8}}, [](double x, double y, double z) { return hashed(x, y, z); }, 0.6},
+    {"noise", {3, {34, 20, 8}}, [](double x, double y, double z) { return hashed(x, y, z); }, 0.6},
     {"a smooth surface",
      {3, {40, 40, 30}},
      [](double x, double y, double z) { return std::sin(x / 6) * std::cos(y / 7) + std::sin(z / 5) * std::cos(x / 9); },

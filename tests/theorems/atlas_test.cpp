@@ -89,7 +89,7 @@ TEST_F(Stores, NeedNoTreesForCutsAndSurfaces) {
 // One object from the bricks around it: every object of a cut, or some of many.
 void check_objects(const Atlas& atlas, const Volume& volume, double tau, isoatlas::SurfaceOptions options) {
     const isoatlas::Cut cut = isoatlas::cut(volume, tau);
-    const std::size_t step = std::max<std::size_t>(1, cut.objects.size() / 12);
+    const std::size_t step = std::max<std::size_t>(1, cut.objects.size() / 6);
     for (std::size_t i = 0; i < cut.objects.size(); i += step) {
         options.objects = {cut.objects[i].id};
         ASSERT_TRUE(same(atlas.extract(tau, options), isoatlas::extract(volume, tau, {.surface = options})))
