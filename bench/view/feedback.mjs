@@ -4,15 +4,9 @@
 //
 // The first argument is where the page was bundled: playwright-core is installed there. Milliseconds in the page, from the event until the
 // words stand beside the isovalue, TIMES for each; the number itself is there when the event has been handled. Drawn without a graphics card.
-import { spawn } from "node:child_process";
-import { createRequire } from "node:module";
-import { resolve } from "node:path";
+import { argumentsOf, launched, said, served, share, tabOf } from "./viewer.mjs";
 
-const [web, isoatlas, store, times = "20"] = process.argv.slice(2);
-if (!store) {
-  console.error("usage: node bench/view/feedback.mjs WEB-BUILD ISOATLAS STORE [TIMES]");
-  process.exit(2);
-}
+const { web, isoatlas, store, number: times } = argumentsOf("feedback.mjs", "TIMES", 20);
 
 /** In the page: milliseconds of each kind. */
 async function measure(times) {
@@ -44,19 +38,15 @@ async function measure(times) {
   return found;
 }
 
-const { chromium } = createRequire(resolve(web, "package.json"))("playwright-core");
-const drawing = ["--no-sandbox", "--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"];
-const browser = await chromium.launch({ executablePath: "/usr/bin/chromium", args: drawing });
-const server = spawn(resolve(isoatlas), ["view", store, "--no-browser", "--quiet"]);
-const address = await new Promise((found) => server.stdout.once("data", (bytes) => found(String(bytes).trim())));
-const tab = await browser.newPage({ viewport: { width: 1280, height: 800 }, bypassCSP: true });
-await tab.addInitScript(() => localStorage.setItem("isoatlas-tour", "seen"));
-await tab.goto(address);
-await tab.waitForFunction(() => /triangles$/.test(document.querySelector(".scene .state")?.textContent ?? ""));
+const browser = await launched(web);
+const server = await served(isoatlas, store);
+const tab = await tabOf(browser);
+await tab.goto(server.address);
+await said(tab, "triangles$");
 await new Promise((done) => setTimeout(done, 3000));
-for (const [kind, list] of Object.entries(await tab.evaluate(measure, Number(times)))) {
-  const sorted = list.sort((p, q) => p - q).map(Math.round);
-  console.log(`${kind}: median ${sorted[sorted.length >> 1]}, 90 % ${sorted[Math.floor(0.9 * sorted.length)]}, worst ${sorted.at(-1)} ms`);
+for (const [kind, list] of Object.entries(await tab.evaluate(measure, times))) {
+  const [median, most, worst] = [0.5, 0.9, 1].map((part) => Math.round(share(list, part)));
+  console.log(`${kind}: median ${median}, 90 % ${most}, worst ${worst} ms`);
 }
 await browser.close();
-server.kill("SIGINT");
+server.end();
