@@ -2,8 +2,8 @@
 //
 //     node bench/view/slow_line.mjs build/release/web build/release/bin/isoatlas STORE [OBJECTS]
 //
-// The browser makes every answer wait. Milliseconds in the page: until the first object of the opened page is drawn, coarse or whole; then for
-// each other card (at most OBJECTS) from the click that shows its object alone. Wanted: 2 s.
+// The browser makes every answer wait. Milliseconds in the page: until the first object of the opened page is in the scene, coarse or
+// whole; then for each other card (at most OBJECTS) from the click that shows its object alone. Wanted: 2 s.
 import { argumentsOf, launched, said, served, share, tabOf } from "./viewer.mjs";
 
 const LINE = { offline: false, latency: 100, downloadThroughput: 1e6, uploadThroughput: 1e6 }; // ms, bytes a second
