@@ -7,20 +7,19 @@
 // of the first object is turned as a whole; its isovalue is dragged to and fro within a tenth of the range, a step each frame.
 import { argumentsOf, launched, said, served, share, tabOf } from "./viewer.mjs";
 
-/** Milliseconds between the frames that are drawn meanwhile. */
+/** How many frames are drawn meanwhile. */
 async function framesDuring(tab, act) {
   await tab.evaluate(() => {
-    window.frames_ = [];
-    const look = (time) => window.frames_ && (window.frames_.push(time), requestAnimationFrame(look));
+    window.drawn = 0;
+    const look = () => window.drawn !== null && (++window.drawn, requestAnimationFrame(look));
     requestAnimationFrame(look);
   });
   await act();
-  const times = await tab.evaluate(() => {
-    const found = window.frames_;
-    window.frames_ = null;
-    return found;
+  return tab.evaluate(() => {
+    const frames = window.drawn;
+    window.drawn = null;
+    return frames;
   });
-  return times.slice(1).map((time, i) => time - times[i]);
 }
 
 async function turn(tab, seconds) {
@@ -40,20 +39,20 @@ async function turn(tab, seconds) {
 async function drag(seconds) {
   const slider = document.querySelector(".drawn input");
   const [middle, range] = [Number(slider.value), Number(slider.max) - Number(slider.min)];
-  const words = () => document.querySelector(".scene .state")?.textContent ?? "";
   const begun = performance.now();
   performance.clearResourceTimings();
   performance.setResourceTimingBufferSize(10_000);
-  const seen = new Set();
+  const seen = new Set(); // numbers of triangles
   for (let step = 0; performance.now() - begun < 1000 * seconds; ++step) {
     slider.value = String(middle + (range / 20) * Math.sin(step / 20));
     slider.dispatchEvent(new Event("input"));
     await new Promise(requestAnimationFrame);
-    if (/[\d,]+ triangles/.test(words())) seen.add(words());
+    const triangles = document.querySelector(".scene .state")?.textContent.match(/([\d,]+) triangles/)?.[1];
+    if (triangles) seen.add(Number(triangles.replaceAll(",", "")));
   }
   const came = performance.getEntriesByType("resource").filter(({ name }) => name.includes("/api/surface"));
   slider.dispatchEvent(new Event("change"));
-  return { times: came.map(({ duration }) => duration), triangles: [...seen].map((text) => Number(text.match(/([\d,]+) triangles/)[1].replaceAll(",", ""))) };
+  return { times: came.map(({ duration }) => duration), triangles: [...seen] };
 }
 
 const { web, isoatlas, store, number: seconds } = argumentsOf("drag.mjs", "SECONDS", 5);
@@ -74,7 +73,7 @@ const empty = await framesDuring(tab, () => turn(tab, seconds));
 await browser.close();
 server.end();
 
-const rate = (frames) => `${(frames.length / seconds).toFixed(1)} frames a second`;
+const rate = (frames) => `${(frames / seconds).toFixed(1)} frames a second`;
 const [median, most] = [0.5, 0.9].map((part) => Math.round(share(came.times, part)));
 console.log(`${store}, ${whole}`);
 console.log(`turned: ${rate(turned)}; an empty scene: ${rate(empty)}`);

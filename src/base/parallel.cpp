@@ -77,7 +77,7 @@ void check_can_start(int count) {
     if (refusal != 0) throw threads_refused(std::generic_category().message(refusal));
 }
 
-/// Returns when all threads of an arena have started.
+/// Returns when all threads of an arena have started, or after kStartTime.
 void start_threads(tbb::task_arena& arena, int threads) {
     std::atomic<int> started = 0;
     const Clock::time_point until = Clock::now() + kStartTime;
