@@ -22,8 +22,7 @@ inline std::string broken_promise_of(const isoatlas::Volume& volume, double tau,
     const oracle::Surface exact = isoatlas::extract(volume, tau);
     const isoatlas::Geometry& geometry = volume.info.geometry;
     const auto failure = [&](const oracle::Surface& coarse, double distance) {
-        const auto report = oracle::coarse_report(coarse, exact, volume.info, oracle::DistanceUnit::voxel, distance);
-        return oracle::coarse_failure(report, coarse, exact);
+        return oracle::coarse_failure(coarse, exact, volume.info, {distance});
     };
     for (const double distance : {0.05, 0.3, 1.0}) {
         const auto simplified = simplify_surface(exact, geometry, volume.info.extent, {.max_distance = distance});

@@ -41,15 +41,6 @@ struct CoarseCase {
         options.unit = *rc::gen::element(DistanceUnit::voxel, DistanceUnit::physical);
         options.triangles = *rc::gen::element(0, 0, 40);
     }
-    /// What a failure is to say.
-    [[nodiscard]] std::string text(const isoatlas::SimplifiedReport& report) const {
-        std::ostringstream out;
-        out << (exact.closed ? "; closed" : "; open") << (options.unit == DistanceUnit::voxel ? ", voxels, " : ", lengths, ")
-            << (volume.info.geometry.coordinates[0].empty() ? "even" : "uneven") << " axes, " << exact.triangles.size()
-            << " triangles; to exact, back: " << report.to_exact.upper << ", " << report.from_exact.upper << "; in voxels "
-            << report.to_exact_in_voxels.upper << ", " << report.from_exact_in_voxels.upper;
-        return out.str();
-    }
     [[nodiscard]] isoatlas::SimplifiedSurface simplified(const isoatlas::Context& context = {}) const {
         return isoatlas::simplify_surface(exact, volume.info.geometry, volume.info.extent, options, context);
     }
@@ -115,18 +106,6 @@ inline isoatlas::Volume volume_of(const Shape& shape) {
     return volume;
 }
 
-/// All checks of verify_simplified() on a coarser version of an exact surface; a distance of 0 is one of rounding.
-inline isoatlas::SimplifiedReport coarse_report(const Surface& coarse, const Surface& exact, const isoatlas::VolumeInfo& info,
-                                                DistanceUnit unit, double distance) {
-    isoatlas::Mesh mesh;
-    mesh.points = coarse.points, mesh.triangles = coarse.triangles;
-    mesh.space = exact.space, mesh.unit = exact.unit;
-    isoatlas::SimplifiedOptions how;
-    how.max_distance = distance == 0 ? 1e-9 : distance * (1 + 1e-5);
-    how.in_voxels = unit == DistanceUnit::voxel;
-    return verify_simplified(mesh, exact, info, how);
-}
-
 /// The Euler number of each contour, by the ids of the points.
 inline std::map<std::int64_t, std::int64_t> euler_numbers(const Surface& surface) {
     std::map<std::int64_t, std::int64_t> numbers;
@@ -153,15 +132,82 @@ inline std::string mesh_failure(const Surface& surface, bool crossings) {
     return {};
 }
 
-/// The first thing that does not hold; empty: all does. Where contours have moved farther than a voxel, thin shells may be nearer to others
-/// than to themselves: their ids say then which belong together.
-inline std::string coarse_failure(const isoatlas::SimplifiedReport& report, const Surface& coarse, const Surface& exact) {
-    if (euler_numbers(coarse) != euler_numbers(exact)) return "the contours have other Euler numbers";
-    const bool is_far = std::max(report.to_exact_in_voxels.upper, report.from_exact_in_voxels.upper) > 1;
+/// Of an exact surface and a coarser version of it: the greatest distance allowed, where 0 is one of rounding.
+struct Allowed {
+    double distance = 0;
+    DistanceUnit unit = DistanceUnit::voxel;
+};
+
+inline isoatlas::SimplifiedReport coarse_report(const Surface& coarse, const Surface& exact, const isoatlas::VolumeInfo& info,
+                                                const Allowed& allowed) {
+    isoatlas::Mesh mesh;
+    mesh.points = coarse.points, mesh.triangles = coarse.triangles;
+    mesh.space = exact.space, mesh.unit = exact.unit;
+    isoatlas::SimplifiedOptions how;
+    how.max_distance = allowed.distance == 0 ? 1e-9 : allowed.distance * (1 + 1e-5);
+    how.in_voxels = allowed.unit == DistanceUnit::voxel;
+    return verify_simplified(mesh, exact, info, how);
+}
+
+/// The points and triangles of one contour, by its id.
+inline Surface contour_of(const Surface& surface, std::int64_t id) {
+    Surface contour;
+    contour.space = surface.space, contour.unit = surface.unit, contour.closed = surface.closed;
+    std::vector<std::int64_t> numbers(surface.points.size());
+    for (std::size_t i = 0; i < surface.points.size(); ++i) {
+        numbers[i] = static_cast<std::int64_t>(contour.points.size());
+        if (surface.contour[i] == id) contour.points.push_back(surface.points[i]);
+    }
+    for (const auto& [a, b, c] : surface.triangles) {
+        if (surface.contour[static_cast<std::size_t>(a)] != id) continue;
+        contour.triangles.push_back(
+            {numbers[static_cast<std::size_t>(a)], numbers[static_cast<std::size_t>(b)], numbers[static_cast<std::size_t>(c)]});
+    }
+    return contour;
+}
+
+inline std::string text(const isoatlas::SimplifiedReport& report, const isoatlas::CheckResult& check) {
+    std::ostringstream out;
+    out << check.name << ": " << check.detail << "; " << report.exact_triangles << " triangles; to exact, back: " << report.to_exact.upper
+        << ", " << report.from_exact.upper << "; in voxels " << report.to_exact_in_voxels.upper << ", "
+        << report.from_exact_in_voxels.upper;
+    return out.str();
+}
+
+/// The Euler numbers of its components, ascending.
+inline std::vector<std::int64_t> component_numbers(const Surface& surface) {
+    std::vector<std::int64_t> chi = inspect(surface.points, surface.triangles).component_chi;
+    std::ranges::sort(chi);
+    return chi;
+}
+
+/// The first check that does not hold; empty: all do.
+inline std::string report_failure(const isoatlas::SimplifiedReport& report, bool are_paired) {
     for (const isoatlas::CheckResult& check : report.checks) {
-        if (!check.holds && !(is_far && check.name == "contours_are_one_to_one")) return check.name + ": " + check.detail;
+        if (!check.holds && (are_paired || check.name != "contours_are_one_to_one")) return text(report, check);
     }
     return {};
+}
+
+/// Each contour by itself.
+inline std::string contour_failure(const Surface& coarse, const Surface& exact, const isoatlas::VolumeInfo& info, const Allowed& allowed) {
+    for (const auto& [id, number] : euler_numbers(exact)) {
+        const std::string failure = report_failure(coarse_report(contour_of(coarse, id), contour_of(exact, id), info, allowed), true);
+        if (!failure.empty()) return "contour " + std::to_string(id) + ": " + failure;
+    }
+    return {};
+}
+
+/// The first thing that does not hold; empty: all does. verify_simplified() pairs contours by nearness, which tells nothing where one is
+/// nearer to another than twice as far as it moved. The ids of their points, if they have them, pair them then.
+inline std::string coarse_failure(const Surface& coarse, const Surface& exact, const isoatlas::VolumeInfo& info, const Allowed& allowed) {
+    if (component_numbers(coarse) != component_numbers(exact)) return "components have other Euler numbers";
+    const bool have_ids = !coarse.contour.empty();
+    if (have_ids && euler_numbers(coarse) != euler_numbers(exact)) return "the contours have other Euler numbers";
+    const isoatlas::SimplifiedReport report = coarse_report(coarse, exact, info, allowed);
+    if (report_failure(report, true).empty()) return {};
+    const std::string failure = report_failure(report, false);
+    return failure.empty() && have_ids ? contour_failure(coarse, exact, info, allowed) : failure;
 }
 
 }  // namespace oracle

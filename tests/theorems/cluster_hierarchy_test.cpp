@@ -53,9 +53,8 @@ void every_choice_has_the_same_contours_within_its_distance() {
     for (const double probability : {0.6, 0.9, 1.0}) {
         const Choice choice = random_choice(hierarchy, probability, random);
         if (choice.surface.points.empty()) return;
-        const isoatlas::SimplifiedReport report = coarse_report(choice.surface, c.exact, c.volume.info, c.options.unit, choice.distance);
-        if (const std::string failure = coarse_failure(report, choice.surface, c.exact); !failure.empty())
-            RC_FAIL(failure + c.text(report));
+        const std::string failure = coarse_failure(choice.surface, c.exact, c.volume.info, {choice.distance, c.options.unit});
+        if (!failure.empty()) RC_FAIL(failure);
     }
 }
 
@@ -81,8 +80,8 @@ void every_view_has_the_same_contours_within_its_distance() {
         if (pixels[i] <= most) distance = std::max(distance, hierarchy.groups[i].distance);
         return pixels[i] <= most;
     });
-    const isoatlas::SimplifiedReport report = coarse_report(seen, c.exact, c.volume.info, c.options.unit, distance);
-    if (const std::string failure = coarse_failure(report, seen, c.exact); !failure.empty()) RC_FAIL(failure + c.text(report));
+    const std::string failure = coarse_failure(seen, c.exact, c.volume.info, {distance, c.options.unit});
+    if (!failure.empty()) RC_FAIL(failure);
 }
 
 void clusters_are_parts_of_the_surface() {
@@ -161,8 +160,7 @@ void hierarchies_have_the_same_bytes_for_any_threads() {
 std::string choice_failure(int i, const Choice& choice, const Surface& exact, const std::map<std::int64_t, std::int64_t>& numbers,
                            const isoatlas::VolumeInfo& info) {
     constexpr int kWithCrossings = 5, kWithDistances = 125;  // odd: of all probabilities
-    if (i % kWithDistances == 0)
-        return coarse_failure(coarse_report(choice.surface, exact, info, DistanceUnit::voxel, choice.distance), choice.surface, exact);
+    if (i % kWithDistances == 0) return coarse_failure(choice.surface, exact, info, {choice.distance});
     if (euler_numbers(choice.surface) != numbers) return "the contours have other Euler numbers";
     return mesh_failure(choice.surface, i % kWithCrossings == 0);
 }
