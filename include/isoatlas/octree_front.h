@@ -25,11 +25,14 @@ struct FrontOptions {
     double pixels = 1;
     /// Regions of interest: the exact surface inside these samples.
     std::vector<SampleBox> exact{};
+    /// The exact surface where all objects together have at most so many triangles; 0: always a front. Found by one search of both.
+    std::int64_t exact_triangles = 0;
 };
 
 struct FrontSurface {
     Surface surface;
-    std::vector<std::int64_t> leaves;  ///< how many blocks of each level hold a part of all objects; of level 0: cells
+    /// How many blocks of each level hold a part of all objects; of level 0: cells. Empty: the exact surface, for exact_triangles.
+    std::vector<std::int64_t> leaves;
     double deviation = std::numeric_limits<double>::infinity();  ///< as it was measured; infinity: it was not
     double pixels = std::numeric_limits<double>::infinity();     ///< as it is seen, at most; infinity: from nowhere
 };

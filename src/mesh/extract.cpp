@@ -201,25 +201,25 @@ Surface extract_level(const TauLevel& level, const ExtractOptions& options, cons
 }
 
 void extract_level(const TauLevel& level, const ExtractOptions& how, const Context& context, Surface& surface, std::int64_t* cells) {
+    extract_level(level, how, choose_components(level, how, context), context, surface, cells);
+}
+
+void extract_level(const TauLevel& level, const ExtractOptions& how, const ChosenComponents& components, const Context& context,
+                   Surface& surface, std::int64_t* cells) {
     const SurfaceOptions& options = how.surface;
     describe(surface, level.info(), level.tau, how.interpolant, how.tunnel_height);
     surface.closed = options.boundary == Boundary::closed;
 
-    const bool selects = selects_components(options);
-    std::optional<Components> components;
-    if (needs_representatives(options)) components = find_components(level, tunnel_height_of(how.interpolant, how.tunnel_height), context);
-    IdArray<ContourNumber, std::uint8_t> chosen;
-    if (selects) chosen = chosen_contours(level, *components, options);
-    visit_grid(level.volume, [&]<class T>(const SampleGrid<T>& grid) {
-        Extraction<T>(level, grid, how, context, components ? &*components : nullptr).run(surface);
-    });
+    visit_grid(level.volume,
+               [&]<class T>(const SampleGrid<T>& grid) { Extraction<T>(level, grid, how, context, components.get()).run(surface); });
+    const bool selects = !components.contours.empty();
     if (cells != nullptr) {
-        *cells =
-            selects ? count_cells(level, options.boundary, *components, chosen, context) : count_cells(level, options.boundary, context);
+        *cells = selects ? count_cells(level, options.boundary, *components.all, components.contours, context)
+                         : count_cells(level, options.boundary, context);
     }
-    if (selects) keep_contours(chosen, surface);
+    if (selects) keep_contours(components.contours, surface);
     if (options.ids)
-        write_ids(*components, context, surface);
+        write_ids(*components.all, context, surface);
     else
         surface.object.clear(), surface.contour.clear();
 }

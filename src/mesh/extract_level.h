@@ -7,6 +7,8 @@
 
 namespace isoatlas {
 
+struct ChosenComponents;
+
 /// Is the orientation of triangles (segments) opposite to that in voxel coordinates? A 2D image is seen from +z where it can be.
 [[nodiscard]] bool is_mirrored(const VolumeInfo& info);
 
@@ -25,6 +27,9 @@ void describe(Surface& surface, const VolumeInfo& info, double tau, Interpolant 
 /// Into an existing surface, whose memory is used again. cells: receives the number of active cells, unless it is null.
 void extract_level(const TauLevel& level, const ExtractOptions& options, const Context& context, Surface& surface,
                    std::int64_t* cells = nullptr);
+/// Of choose_components(level, options, context) (mesh/select_cells.h).
+void extract_level(const TauLevel& level, const ExtractOptions& options, const ChosenComponents& components, const Context& context,
+                   Surface& surface, std::int64_t* cells);
 /// All active cells. Cost: O(voxels / 64).
 [[nodiscard]] std::int64_t count_cells(const TauLevel& level, Boundary boundary, const Context& context);
 

@@ -6,8 +6,10 @@
 #include <unordered_map>
 
 #include "base/big_vector.h"
+#include "critical/bodies.h"
 #include "field/slab_work.h"
 #include "isoatlas/polarity.h"
+#include "mesh/extract_level.h"
 
 namespace isoatlas {
 namespace {
@@ -102,7 +104,7 @@ void write_contours(const Components& components, const HighBits& high, const Hi
 }
 
 IdArray<ContourNumber, std::uint8_t> chosen_contours(const TauLevel& level, const Components& components, const SurfaceOptions& options) {
-    if (options.objects.empty() && options.contours.empty() && options.shell == ShellChoice::all) return {};
+    if (!selects_components(options)) return {};
     IdArray<ObjectNumber, std::uint8_t> object_chosen(static_cast<std::size_t>(components.objects()), options.objects.empty());
     for (const std::int64_t voxel : options.objects) object_chosen[object_at(level, components, voxel)] = 1;
 
@@ -118,6 +120,14 @@ IdArray<ContourNumber, std::uint8_t> chosen_contours(const TauLevel& level, cons
         chosen[contour] = chosen[contour] && shell_chosen && object_chosen[components.object_of_contour(contour)];
     }
     return chosen;
+}
+
+ChosenComponents choose_components(const TauLevel& level, const ExtractOptions& options, const Context& context) {
+    ChosenComponents components;
+    if (!needs_representatives(options.surface)) return components;
+    components.all = find_components(level, tunnel_height_of(options.interpolant, options.tunnel_height), context);
+    components.contours = chosen_contours(level, *components.all, options.surface);
+    return components;
 }
 
 void keep_contours(IdSpan<ContourNumber, const std::uint8_t> chosen, Surface& surface) {

@@ -2,6 +2,9 @@
 // In the literature: flexible isosurfaces, single contours by their arc (Carr, Snoeyink, Path seeds and flexible isosurfaces, 2003).
 #pragma once
 
+#include <optional>
+
+#include "isoatlas/surface.h"
 #include "levelset/components.h"
 #include "mesh/hits.h"
 #include "mesh/layout.h"
@@ -18,6 +21,15 @@ void write_contours(const Components& components, const HighBits& high, const Hi
 /// Throws Error: usage (not a voxel), not_found (a Low voxel, no such contour at tau).
 [[nodiscard]] IdArray<ContourNumber, std::uint8_t> chosen_contours(const TauLevel& level, const Components& components,
                                                                    const SurfaceOptions& options);
+
+/// What a surface is cut out of.
+struct ChosenComponents {
+    std::optional<Components> all{};                  ///< none: points need not know their component
+    IdArray<ContourNumber, std::uint8_t> contours{};  ///< those that are chosen; empty: all
+
+    [[nodiscard]] const Components* get() const { return all ? &*all : nullptr; }
+};
+[[nodiscard]] ChosenComponents choose_components(const TauLevel& level, const ExtractOptions& options, const Context& context);
 
 /// Keeps the points of the chosen contours and what is between them. Surface::contour holds contour numbers.
 void keep_contours(IdSpan<ContourNumber, const std::uint8_t> chosen, Surface& surface);

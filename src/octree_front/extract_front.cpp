@@ -144,6 +144,18 @@ std::unique_ptr<FrontLeaves> choose_leaves(const CoalescibleBlocks& blocks, cons
     return chosen;
 }
 
+/// The exact surface, where it has as few triangles as FrontOptions::exact_triangles. Returns whether it has.
+bool extract_few(const TauLevel& level, const FrontOptions& options, ExtractOptions how, const ChosenComponents& components,
+                 const Context& context, Surface& surface, std::int64_t* cells) try {
+    std::int64_t& most = how.surface.max_triangles;
+    most = most == 0 ? options.exact_triangles : std::min(most, options.exact_triangles);
+    extract_level(level, how, components, context, surface, cells);
+    return true;
+} catch (const Error& error) {
+    if (error.reason() != Reason::too_many_triangles) throw;
+    return false;
+}
+
 }  // namespace
 
 void require_front(const VolumeInfo& info, const FrontOptions& options, const SurfaceOptions& surface) {
@@ -155,6 +167,7 @@ void require_front(const VolumeInfo& info, const FrontOptions& options, const Su
     require(options.max_level >= 0 && options.max_level <= CoalescibleBlocks::kMaxLevel, "the greatest level of a front", "0 to 5");
     require(surface.boundary == Boundary::closed, "a front that is open at the border of the volume", "a closed one");
     require(options.triangles >= 0, "the triangles of a front", "0 or more");
+    require(options.exact_triangles >= 0, "the triangles of an exact surface", "0 or more");
     require(options.deviation > 0, "the deviation of a front", "more than 0 voxels");
     require(options.pixels > 0, "the pixels of a front", "more than 0");
     require(!options.from || std::isinf(options.deviation), "a front with a deviation that is seen from somewhere", "one of them");
@@ -164,19 +177,15 @@ void require_front(const VolumeInfo& info, const FrontOptions& options, const Su
 
 FrontSurface extract_front_level(const TauLevel& level, const FrontOptions& options, const ExtractOptions& how, const Context& context,
                                  std::int64_t* cells) {
-    std::optional<Components> components;
-    if (needs_representatives(how.surface))
-        components = find_components(level, tunnel_height_of(how.interpolant, how.tunnel_height), context);
-    IdArray<ContourNumber, std::uint8_t> chosen;
-    if (components) chosen = chosen_contours(level, *components, how.surface);
-
+    const ChosenComponents components = choose_components(level, how, context);
+    FrontSurface front;
+    if (options.exact_triangles > 0 && extract_few(level, options, how, components, context, front.surface, cells)) return front;
     const CoalescibleBlocks blocks(level.high, std::max(options.max_level, 1), context);
     const std::unique_ptr<FrontLeaves> leaves = choose_leaves(blocks, options, context);
-    if (chosen.empty()) require_triangles(number_of(*leaves), how.surface, "at least ");  // a leaf has one or more
+    if (components.contours.empty()) require_triangles(number_of(*leaves), how.surface, "at least ");  // a leaf has one or more
     std::vector<RowFans> fans;
     const double measured = fit(level, {level, options}, *leaves, fans, context);
 
-    FrontSurface front;
     front.leaves.assign(static_cast<std::size_t>(options.max_level) + 1, 0);
     (options.from ? front.pixels : front.deviation) = measured;
     for (std::int64_t row = 0; row < leaves->rows(); ++row) {
@@ -185,16 +194,16 @@ FrontSurface extract_front_level(const TauLevel& level, const FrontOptions& opti
     Surface& surface = front.surface;
     describe(surface, level.info(), level.tau, how.interpolant, how.tunnel_height);
     visit_grid(level.volume, [&]<class T>(const SampleGrid<T>& grid) {
-        FrontMesh<T>(level, grid, *leaves, how, context, components ? &*components : nullptr).write(fans, surface);
+        FrontMesh<T>(level, grid, *leaves, how, context, components.get()).write(fans, surface);
     });
     if (cells != nullptr) {
-        *cells = chosen.empty() ? count_cells(level, how.surface.boundary, context)
-                                : count_cells(level, how.surface.boundary, *components, chosen, context);
+        *cells = components.contours.empty() ? count_cells(level, how.surface.boundary, context)
+                                             : count_cells(level, how.surface.boundary, *components.all, components.contours, context);
     }
-    if (!chosen.empty()) keep_contours(chosen, surface);
+    if (!components.contours.empty()) keep_contours(components.contours, surface);
     require_triangles(static_cast<std::int64_t>(surface.triangles.size()), how.surface);
     if (how.surface.ids)
-        write_ids(*components, context, surface);
+        write_ids(*components.all, context, surface);
     else
         surface.contour.clear();
     return front;

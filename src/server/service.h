@@ -117,8 +117,8 @@ private:
     [[nodiscard]] std::int64_t max_triangles() const;
     [[nodiscard]] WireMesh wire(const Surface& surface, std::int64_t max, const Context& context, bool strips = true) const;
     [[nodiscard]] WireMesh wire_front(const FrontSurface& front, const Context& context) const;
-    /// The exact surface, if it has no more triangles than wanted; one with its topology by blocks of an octree, if that has no more; the
-    /// exact one, reduced without a promise.
+    /// The exact surface, if it has no more triangles than wanted; else one with its topology by blocks of an octree; if that has more,
+    /// too, it is reduced without a promise. The object is searched once.
     [[nodiscard]] WireMesh unprepared(const Atlas& atlas, double tau, const SurfaceOptions& options, std::int64_t triangles,
                                       const Context& context) const;
     /// A surface of at most so many triangles, if it can be reduced to so many: a level of detail where the store has it.

@@ -86,15 +86,6 @@ std::optional<Viewpoint> viewpoint_of(QueryParameters& words, const Geometry& ge
     return from;
 }
 
-/// What make() returns; nullopt where that has more triangles than wanted.
-template <class Make>
-auto if_it_fits(const Make& make) -> std::optional<decltype(make())> try {
-    return make();
-} catch (const Error& error) {
-    if (error.reason() != Reason::too_many_triangles) throw;
-    return std::nullopt;
-}
-
 }  // namespace
 
 void Service::prepare(const Context& context) {
@@ -149,15 +140,14 @@ WireMesh Service::mesh_of(const Atlas& atlas, double tau, const SurfaceOptions& 
 
 WireMesh Service::unprepared(const Atlas& atlas, double tau, const SurfaceOptions& options, std::int64_t triangles,
                              const Context& context) const {
-    SurfaceOptions few = options;
-    few.max_triangles = std::min(triangles, max_triangles());
-    if (const auto exact = if_it_fits([&] { return atlas.extract(tau, few, context); })) return wire(*exact, 0, context);
-    if (atlas.info().extent.rank == 3) {
-        const FrontOptions blocks{.max_level = kFrontLevel, .triangles = few.max_triangles};
-        if (const auto front = if_it_fits([&] { return atlas.extract_front(tau, blocks, few, context); }))
-            return wire_front(*front, context);
-    }
-    return wire(extract(atlas, tau, options, context), triangles, context);
+    if (atlas.info().extent.rank == 2) return wire(extract(atlas, tau, options, context), triangles, context);
+    const std::int64_t few = std::min(triangles, max_triangles());
+    SurfaceOptions all = options;
+    all.max_triangles = max_triangles();
+    const FrontSurface front = atlas.extract_front(tau, {.max_level = kFrontLevel, .triangles = few, .exact_triangles = few}, all, context);
+    if (front.leaves.empty()) return wire(front.surface, 0, context);
+    if (std::ssize(front.surface.triangles) <= few) return wire_front(front, context);
+    return wire(front.surface, triangles, context);
 }
 
 WireMesh Service::wire_front(const FrontSurface& front, const Context& context) const {

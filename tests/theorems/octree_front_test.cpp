@@ -113,6 +113,26 @@ void hits_are_seen_within_the_pixels() {
     RC_ASSERT(unseen_by(front, c.volume, c.exact.tau, options, c.exact.interpolant, 1) == 0);
 }
 
+/// By the same search; the triangles of all objects count.
+void surfaces_of_few_triangles_are_exact() {
+    const CoarseCase c;
+    RC_PRE(c.exact.closed && !c.exact.triangles.empty());
+    FrontOptions options = arbitrary_front(c.volume.info.extent);
+    isoatlas::ExtractOptions how{.interpolant = c.exact.interpolant};
+    const auto triangles = static_cast<std::int64_t>(isoatlas::extract(c.volume, c.exact.tau, how).triangles.size());
+    how.surface.ids = *rc::gen::arbitrary<bool>();
+    if (*rc::gen::arbitrary<bool>()) how.surface.objects = {*rc::gen::elementOf(c.exact.object)};
+    const Surface exact = isoatlas::extract(c.volume, c.exact.tau, how);
+    const Surface front = extract_front(c.volume, c.exact.tau, options, how).surface;
+    options.exact_triangles = *rc::gen::element<std::int64_t>(1, triangles - 1, triangles, 2 * triangles);
+    const FrontSurface chosen = extract_front(c.volume, c.exact.tau, options, how, arbitrary_context());
+    const bool is_exact = triangles <= options.exact_triangles;
+    RC_ASSERT(chosen.leaves.empty() == is_exact);
+    RC_ASSERT(chosen.surface.points == (is_exact ? exact : front).points);
+    RC_ASSERT(chosen.surface.triangles == (is_exact ? exact : front).triangles);
+    RC_ASSERT(chosen.surface.contour == (is_exact ? exact : front).contour);
+}
+
 void regions_of_interest_are_exact() {
     CoarseCase c;
     c.volume.info.geometry = {};
@@ -351,6 +371,7 @@ TEST(OctreeFronts, RefuseOptionsOutOfRange) {
     EXPECT_EQ(refused(isoatlas::make_volume<float>({2, {4, 4, 1}}, flat), {}), isoatlas::ErrorKind::unsupported);
 }
 
+RC_GTEST_PROP(OctreeFronts, OfFewTrianglesAreExact, ()) { surfaces_of_few_triangles_are_exact(); }
 RC_GTEST_PROP(OctreeFronts, HaveTheContoursOfTheExactSurface, ()) { fronts_have_the_contours_of_the_exact_surface(); }
 RC_GTEST_PROP(OctreeFronts, StayWithinTheirDeviation, ()) { hits_stay_within_the_deviation(); }
 RC_GTEST_PROP(OctreeFronts, AreSeenWithinTheirPixels, ()) { hits_are_seen_within_the_pixels(); }
