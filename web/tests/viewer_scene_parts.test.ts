@@ -141,12 +141,13 @@ describe("surfaces", () => {
     expect(asked.map(({ most }) => most / 20_000)).toEqual([1, 2, 4, 8, 16, 32, 32, 32]);
 
     const budget = new DragBudget(20_000);
-    const after = (milliseconds: number, isReduced = true): number => {
-      budget.took(milliseconds, isReduced);
+    const after = (milliseconds: number, isReduced = true, frame = 0): number => {
+      budget.took(milliseconds, isReduced, frame);
       return budget.triangles;
     };
     expect([199, 99, 99].map((quick) => after(quick))).toEqual([40_000, 80_000, 160_000]);
     expect([after(99, false), after(300), after(500), after(500, false)]).toEqual([160_000, 160_000, 40_000, 20_000]);
+    expect([after(99, true, 60), after(99, true, 40), after(99, true, 130)]).toEqual([20_000, 40_000, 20_000]);
   });
 });
 

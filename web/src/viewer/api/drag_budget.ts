@@ -1,11 +1,14 @@
-// How many triangles surfaces may have while an isovalue is dragged: as many as arrive in time. Coarse ones of few triangles need not
-// have the topology of the exact surface.
+// How many triangles surfaces may have while an isovalue is dragged: as many as arrive in time and are drawn in time, which without a
+// graphics card are few. Coarse ones of few triangles need not have the topology of the exact surface.
 
 /** the most triangles, in the fewest ones */
 const MOST = 32;
 /** ms: a surface that took less could have been larger, one that took more should be smaller */
 const QUICK = 200;
 const SLOW = 400;
+/** ms: the same of a frame */
+const QUICK_FRAME = 50;
+const SLOW_FRAME = 120;
 
 export class DragBudget {
   private most: number;
@@ -19,9 +22,13 @@ export class DragBudget {
     return this.most;
   }
 
-  /** A surface was there after so many milliseconds. isReduced: the exact one has more triangles than were allowed. */
-  took(milliseconds: number, isReduced: boolean): void {
+  /**
+   * A surface was there after so many milliseconds, and a frame takes so many. isReduced: the exact one has more triangles than were
+   * allowed.
+   */
+  took(milliseconds: number, isReduced: boolean, frame = 0): void {
     if (milliseconds > SLOW) this.most = Math.max(this.most / 4, this.fewest);
-    else if (milliseconds < QUICK && isReduced) this.most = Math.min(2 * this.most, MOST * this.fewest);
+    else if (frame > SLOW_FRAME) this.most = Math.max(this.most / 2, this.fewest);
+    else if (milliseconds < QUICK && frame < QUICK_FRAME && isReduced) this.most = Math.min(2 * this.most, MOST * this.fewest);
   }
 }

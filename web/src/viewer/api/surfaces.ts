@@ -76,12 +76,13 @@ export class Surfaces {
   private readonly dragged = new DragBudget(COARSE);
   private asPoints = false;
 
-  /** onMesh: null where there is no such surface. eye: from where the scene is seen now. */
+  /** onMesh: null where there is no such surface. eye: from where the scene is seen now. frameTime: of the scene, milliseconds. */
   constructor(
     private readonly api: Api,
     private readonly onMesh: (entry: number, mesh: Mesh | null, tau: number) => void,
     private readonly onUpdate: (entry: number) => void,
     private readonly eye: () => Eye | undefined = () => undefined,
+    private readonly frameTime: () => number = () => 0,
   ) {}
 
   loadStateOf(entry: number): LoadState {
@@ -161,7 +162,7 @@ export class Surfaces {
         this.onUpdate(entry);
         const start = performance.now();
         let mesh = await this.meshOf(entry, request, maxTriangles);
-        if (isDragged) this.dragged.took(performance.now() - start, mesh.coarse);
+        if (isDragged) this.dragged.took(performance.now() - start, mesh.coarse, this.frameTime());
         if (isStale()) return;
         if (maxTriangles === FULL && mesh.coarse && mesh.pixels === undefined && channel.hasNoLevels !== key) {
           channel.hasNoLevels = key; // coarse by blocks of cells: then the exact surface

@@ -30,6 +30,7 @@ export class Scene {
       (entry, mesh, tau) => this.onMesh(entry, mesh, tau),
       (entry) => this.listeners.forEach((listener) => listener(entry)),
       () => context.viewport.eye,
+      () => context.viewport.frameTime,
     );
   }
 

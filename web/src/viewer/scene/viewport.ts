@@ -47,6 +47,8 @@ export class Viewport {
   private plane: three.Plane | null = null;
   private caps: three.Group[] = [];
   private isFrameRequested = false;
+  /** milliseconds from the last frame that was drawn until another one could be */
+  frameTime = 0;
   private readonly drawListeners: (() => void)[] = [];
   private readonly changeListeners: (() => void)[] = [];
   private readonly passes: ((scene: three.Scene, isStill: boolean) => void)[] = [];
@@ -221,10 +223,11 @@ export class Viewport {
   draw(): void {
     if (this.isFrameRequested) return;
     this.isFrameRequested = true;
-    requestAnimationFrame(() => {
+    requestAnimationFrame((begun) => {
       this.isFrameRequested = false;
       this.render();
       for (const listener of this.drawListeners) listener();
+      requestAnimationFrame((next) => (this.frameTime = next - begun));
     });
   }
 
