@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "base/check.h"
+#include "formats/common/read_ahead.h"
 #include "formats/volume/imagej_labels.h"
 #include "formats/volume/tiff_handle.h"
 
@@ -27,7 +28,7 @@ std::span<const T> private_array(TIFF* tiff, std::uint32_t tag, std::size_t entr
 }  // namespace
 
 TiffFile::Handle::Handle(const std::string& path, bool may_skip_rest)
-    : client{.path = path, .file = open_file(path), .messages = {}}, where("header"), skip_rest(may_skip_rest) {
+    : client{.path = path, .file = with_read_ahead(open_file(path)), .messages = {}}, where("header"), skip_rest(may_skip_rest) {
     tiff = open_tiff_client(client);
     if (tiff == nullptr) corrupt("header", "cannot be read as TIFF");
     current = TIFFCurrentDirOffset(tiff);
