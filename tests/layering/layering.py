@@ -69,7 +69,7 @@ DOORS = {
     r"tbb/.*|oneapi/.*": r"src/base/(parallel\.cpp|shared_vector\.h)",
     r"future|condition_variable|stop_token": r"(apps|tests|bench)/.*|src/base/memory_budgets\.h|src/base/workers\.h|src/remote/remote_file\.cpp|src/server/(job_queue|version_counter|shared_once)\.h",
     r"thread": r"(apps|tests|bench)/.*|src/base/parallel.*\.cpp|src/base/cancel\.h|src/base/memory_(budgets\.h|limit\.cpp)|src/base/workers\.h",  # asks which thread it is on; watches memory, computes nothing
-    r"mutex": r"(apps|tests|bench|src/base)/.*|src/analysis/analysis_data\.h|src/zones/open_voxels\.h|src/methods/zones/filing_runs\.h|src/formats/common/hdf5_(handle\.h|layout\.cpp)|src/formats/volume/hdf5_(file|samples|storage|driver|object)\.cpp|src/bricks/(stored_samples|brick_cache|brick_histogram)\.(h|cpp)|src/atlas/atlas\.cpp|src/remote/.*|src/server/(job_queue|version_counter|store_state|store_levels|event_stream|shared_once|access_control|naming|shared_scene|volume_services)\.h",  # std::once_flag: the index is made when first asked for
+    r"mutex": r"(apps|tests|bench|src/base)/.*|src/analysis/analysis_data\.h|src/zones/open_voxels\.h|src/methods/zones/filing_runs\.h|src/formats/common/hdf5_(handle\.h|layout\.cpp)|src/formats/common/read_ahead\.cpp|src/formats/volume/hdf5_(file|samples|storage|driver|object)\.cpp|src/bricks/(stored_samples|brick_cache|brick_histogram)\.(h|cpp)|src/atlas/atlas\.cpp|src/remote/.*|src/server/(job_queue|version_counter|store_state|store_levels|event_stream|shared_once|access_control|naming|shared_scene|volume_services)\.h",  # std::once_flag: the index is made when first asked for
     r"mpi\.h": r"(?!)",
     r"tiff.*\.h": r"src/formats/volume/.*tiff.*|tests/.*",
     r"png\.h": r"src/formats/volume/png_picture\.cpp",
@@ -91,7 +91,7 @@ DOORS = {
     r"embree3/.*": r"src/render/ray_surfaces\.cpp|src/measures/solid_rays\.cpp",
     r"fcntl\.h|sys/(stat|file)\.h|fstream": r"src/base/.*|(apps|tests|bench)/.*",
     r"libqhull_r/.*": r"src/measures/convex_hull\.cpp",
-    r"hdf5\.h": r"src/formats/common/hdf5_(handle\.h|layout\.cpp)|src/formats/volume/hdf5_(file|heap|samples|storage|driver|object)\.(h|cpp)|tests/.*",
+    r"hdf5\.h": r"src/formats/common/hdf5_(handle\.h|layout\.cpp)|src/formats/common/read_ahead\.cpp|src/formats/volume/hdf5_(file|heap|samples|storage|driver|object)\.(h|cpp)|tests/.*",
     r"xxhash\.h": r"src/codec/checksum\.h|src/remote/disk_cache\.cpp",
     r"curl/.*": r"src/remote/(address|transfer|http_client)\.(h|cpp)",
     r"openvdb/.*": r"src/formats/volume/vdb_openvdb\.cpp",
