@@ -47,8 +47,10 @@ struct SimplifiedReport {
 /// A mesh, of this program or another one, against the exact surface of a volume, which extract() made: what verify_mesh() checks (of an
 /// open surface not that it is closed), surface_does_not_cross_itself, contours_are_one_to_one, contours_have_same_genus,
 /// contours_are_nested_alike, and with max_distance distance_is_within. Crossings and nesting are decided exactly; distances are enclosed
-/// for all points, not only for corners of triangles. info: of the volume. Throws Error: usage (options), input (the mesh is in another
-/// unit of length), cancelled. Cost: some 20 microseconds a triangle of both. The same for any number of threads.
+/// for all points, not only for corners of triangles. Contours are paired by nearness, so that one which moved more than half as far as its
+/// neighbour is away may find no partner: then contours_are_one_to_one does not hold. info: of the volume. Throws Error: usage (options),
+/// input (the mesh is in another unit of length), cancelled. Cost: some 20 microseconds a triangle of both. The same for any number of
+/// threads.
 [[nodiscard]] SimplifiedReport verify_simplified(const Mesh& mesh, const Surface& exact, const VolumeInfo& info,
                                                  const SimplifiedOptions& options = {}, const Context& context = {});
 

@@ -247,7 +247,7 @@ describe("the state of a surface", () => {
   const there = { ...nothing, key: "5 all", triangles: 1234, coarse: true, waiting: true };
   it("is its load state in words", () => {
     const shown = shownAt(0, 5);
-    expect(noteOf(shown, there)).toBe("at 5, 1,234 triangles, coarse");
+    expect(noteOf(shown, there)).toBe("at 5, 1,234 triangles, coarse: not the exact topology");
     expect(noteOf(shown, { ...there, within: 3.9375 })).toBe("at 5, 1,234 triangles, coarse: exact topology, within 3.938 voxels");
     const seen = { ...there, coarse: false, within: 3, pixels: 0.52 };
     expect(noteOf(shown, seen)).toBe("at 5, 1,234 triangles: exact topology, within 0.52 pixels");

@@ -209,5 +209,5 @@ export function noteOf(shown: Shown, loadState: LoadState): string {
 function distanceWords({ coarse, within, pixels }: LoadState): string {
   if (pixels !== null) return `: exact topology, within ${value(pixels)} ${pixels === 1 ? "pixel" : "pixels"}`;
   if (!coarse) return "";
-  return within === null ? ", coarse" : `, coarse: exact topology, within ${value(within)} voxels`;
+  return within === null ? ", coarse: not the exact topology" : `, coarse: exact topology, within ${value(within)} voxels`;
 }
