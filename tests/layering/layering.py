@@ -91,7 +91,7 @@ DOORS = {
     r"embree3/.*": r"src/render/ray_surfaces\.cpp|src/measures/solid_rays\.cpp",
     r"fcntl\.h|sys/(stat|file)\.h|fstream": r"src/base/.*|(apps|tests|bench)/.*",
     r"libqhull_r/.*": r"src/measures/convex_hull\.cpp",
-    r"hdf5\.h": r"src/formats/common/hdf5_(handle\.h|layout\.cpp)|src/formats/common/read_ahead\.cpp|src/formats/volume/hdf5_(file|heap|samples|storage|driver|object)\.(h|cpp)|tests/.*",
+    r"hdf5\.h": r"src/formats/common/hdf5_(handle\.h|layout\.cpp)|src/formats/volume/hdf5_(file|heap|samples|storage|driver|object)\.(h|cpp)|tests/.*",
     r"xxhash\.h": r"src/codec/checksum\.h|src/remote/disk_cache\.cpp",
     r"curl/.*": r"src/remote/(address|transfer|http_client)\.(h|cpp)",
     r"openvdb/.*": r"src/formats/volume/vdb_openvdb\.cpp",
