@@ -31,11 +31,11 @@ class Numbers(harness.CliTest):
         seen = 0
         for verb in VERBS:
             for name, _ in self.options(verb):
-                words = ([name, ""], [name + "="])[seen % 2]  # each of them with many options
-                error = self.run_error(2, verb, "v.nrrd", *words, says="empty")
-                self.assertIn(name, error["what"])
-                seen += 1
-        self.assertGreater(seen, 200)
+                for words in ([name, ""], [name + "="]):
+                    error = self.run_error(2, verb, "v.nrrd", *words, says="empty")
+                    self.assertIn(name, error["what"])
+                    seen += 1
+        self.assertGreater(seen, 250)
         self.run_error(2, "tree", "v.nrrd", "-o", "", says="-o has an empty value")
         self.run_error(2, "extract", "v.nrrd", "--tau=", "-o", "x.ply", says="--tau has an empty value")
         self.run_error(2, "", says="empty word")
