@@ -27,11 +27,14 @@ struct FrontOptions {
     std::vector<SampleBox> exact{};
     /// The exact surface where all objects together have at most so many triangles; 0: always a front. Found by one search of both.
     std::int64_t exact_triangles = 0;
+    /// The exact surface, too, where it has more than so many triangles, unless SurfaceOptions::max_triangles refuses it: a front would
+    /// have too many as well, and takes longer; 0: never.
+    std::int64_t exact_above = 0;
 };
 
 struct FrontSurface {
     Surface surface;
-    /// How many blocks of each level hold a part of all objects; of level 0: cells. Empty: the exact surface, for exact_triangles.
+    /// How many blocks of each level hold a part of all objects; of level 0: cells. Empty: the exact surface instead.
     std::vector<std::int64_t> leaves;
     double deviation = std::numeric_limits<double>::infinity();  ///< as it was measured; infinity: it was not
     double pixels = std::numeric_limits<double>::infinity();     ///< as it is seen, at most; infinity: from nowhere

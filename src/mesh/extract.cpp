@@ -39,13 +39,19 @@ public:
           flip_(is_mirrored(level.info())),
           cells_(grid_, level.tau, domain_, map_, how, flip_) {}
 
-    void run(Surface& surface) {
-        if (domain_.is_empty()) return for_arrays(surface, [](auto& array) { array.clear(); });
+    /// Returns whether it is wanted.
+    bool run(const TrianglesWanted& is_wanted, Surface& surface) {
+        if (domain_.is_empty()) {
+            for_arrays(surface, [](auto& array) { array.clear(); });
+            return is_wanted(0);
+        }
         count();
+        if (!is_wanted(layout_.back().triangle)) return false;
         require_triangles(layout_.back().triangle, options_);
         allocate(surface);
         write_hits(surface);
         write_cells(surface);
+        return true;
     }
 
 private:
@@ -201,17 +207,21 @@ Surface extract_level(const TauLevel& level, const ExtractOptions& options, cons
 }
 
 void extract_level(const TauLevel& level, const ExtractOptions& how, const Context& context, Surface& surface, std::int64_t* cells) {
-    extract_level(level, how, choose_components(level, how, context), context, surface, cells);
+    const auto always = [](std::int64_t) { return true; };
+    extract_level_if(always, level, how, choose_components(level, how, context), context, surface, cells);
 }
 
-void extract_level(const TauLevel& level, const ExtractOptions& how, const ChosenComponents& components, const Context& context,
-                   Surface& surface, std::int64_t* cells) {
+bool extract_level_if(const TrianglesWanted& is_wanted, const TauLevel& level, const ExtractOptions& how,
+                      const ChosenComponents& components, const Context& context, Surface& surface, std::int64_t* cells) {
     const SurfaceOptions& options = how.surface;
     describe(surface, level.info(), level.tau, how.interpolant, how.tunnel_height);
     surface.closed = options.boundary == Boundary::closed;
 
-    visit_grid(level.volume,
-               [&]<class T>(const SampleGrid<T>& grid) { Extraction<T>(level, grid, how, context, components.get()).run(surface); });
+    bool is_made = false;
+    visit_grid(level.volume, [&]<class T>(const SampleGrid<T>& grid) {
+        is_made = Extraction<T>(level, grid, how, context, components.get()).run(is_wanted, surface);
+    });
+    if (!is_made) return false;
     const bool selects = !components.contours.empty();
     if (cells != nullptr) {
         *cells = selects ? count_cells(level, options.boundary, *components.all, components.contours, context)
@@ -222,6 +232,7 @@ void extract_level(const TauLevel& level, const ExtractOptions& how, const Chose
         write_ids(*components.all, context, surface);
     else
         surface.object.clear(), surface.contour.clear();
+    return true;
 }
 
 Surface extract(const Volume& volume, double tau, const ExtractOptions& options, const Context& context) {

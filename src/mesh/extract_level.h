@@ -2,6 +2,8 @@
 // In the literature: isosurface extraction (Lorensen, Cline, Marching Cubes, 1987).
 #pragma once
 
+#include <functional>
+
 #include "isoatlas/surface.h"
 #include "levelset/tau_level.h"
 
@@ -27,9 +29,11 @@ void describe(Surface& surface, const VolumeInfo& info, double tau, Interpolant 
 /// Into an existing surface, whose memory is used again. cells: receives the number of active cells, unless it is null.
 void extract_level(const TauLevel& level, const ExtractOptions& options, const Context& context, Surface& surface,
                    std::int64_t* cells = nullptr);
-/// Of choose_components(level, options, context) (mesh/select_cells.h).
-void extract_level(const TauLevel& level, const ExtractOptions& options, const ChosenComponents& components, const Context& context,
-                   Surface& surface, std::int64_t* cells);
+/// Asked when the triangles (segments) of all components are counted, before memory is taken for them.
+using TrianglesWanted = std::function<bool(std::int64_t triangles)>;
+/// The same where it is wanted, of choose_components(level, options, context) (mesh/select_cells.h). Returns whether it is.
+bool extract_level_if(const TrianglesWanted& is_wanted, const TauLevel& level, const ExtractOptions& options,
+                      const ChosenComponents& components, const Context& context, Surface& surface, std::int64_t* cells);
 /// All active cells. Cost: O(voxels / 64).
 [[nodiscard]] std::int64_t count_cells(const TauLevel& level, Boundary boundary, const Context& context);
 

@@ -144,16 +144,21 @@ std::unique_ptr<FrontLeaves> choose_leaves(const CoalescibleBlocks& blocks, cons
     return chosen;
 }
 
-/// The exact surface, where it has as few triangles as FrontOptions::exact_triangles. Returns whether it has.
-bool extract_few(const TauLevel& level, const FrontOptions& options, ExtractOptions how, const ChosenComponents& components,
-                 const Context& context, Surface& surface, std::int64_t* cells) try {
-    std::int64_t& most = how.surface.max_triangles;
-    most = most == 0 ? options.exact_triangles : std::min(most, options.exact_triangles);
-    extract_level(level, how, components, context, surface, cells);
-    return true;
-} catch (const Error& error) {
-    if (error.reason() != Reason::too_many_triangles) throw;
-    return false;
+/// The exact surface, where the options ask for it in place of a front. Returns whether they do.
+bool extract_instead(const TauLevel& level, const FrontOptions& options, const ExtractOptions& how, const ChosenComponents& components,
+                     const Context& context, Surface& surface, std::int64_t* cells) {
+    const auto has_few = [&](std::int64_t triangles) { return options.exact_triangles > 0 && triangles <= options.exact_triangles; };
+    const std::int64_t most = how.surface.max_triangles;  // beyond it a front may be what is left
+    const auto has_too_many = [&](std::int64_t triangles) {
+        return options.exact_above > 0 && triangles > options.exact_above && (most == 0 || triangles <= most);
+    };
+    bool has_few_of_all = false;
+    const auto is_wanted = [&](std::int64_t triangles) {
+        has_few_of_all = has_few(triangles);
+        return has_few_of_all || has_too_many(triangles);
+    };
+    if (!extract_level_if(is_wanted, level, how, components, context, surface, cells)) return false;
+    return has_few_of_all || has_too_many(std::ssize(surface.triangles));  // only some of the components may be chosen
 }
 
 }  // namespace
@@ -167,7 +172,7 @@ void require_front(const VolumeInfo& info, const FrontOptions& options, const Su
     require(options.max_level >= 0 && options.max_level <= CoalescibleBlocks::kMaxLevel, "the greatest level of a front", "0 to 5");
     require(surface.boundary == Boundary::closed, "a front that is open at the border of the volume", "a closed one");
     require(options.triangles >= 0, "the triangles of a front", "0 or more");
-    require(options.exact_triangles >= 0, "the triangles of an exact surface", "0 or more");
+    require(options.exact_triangles >= 0 && options.exact_above >= 0, "the triangles of an exact surface", "0 or more");
     require(options.deviation > 0, "the deviation of a front", "more than 0 voxels");
     require(options.pixels > 0, "the pixels of a front", "more than 0");
     require(!options.from || std::isinf(options.deviation), "a front with a deviation that is seen from somewhere", "one of them");
@@ -179,7 +184,10 @@ FrontSurface extract_front_level(const TauLevel& level, const FrontOptions& opti
                                  std::int64_t* cells) {
     const ChosenComponents components = choose_components(level, how, context);
     FrontSurface front;
-    if (options.exact_triangles > 0 && extract_few(level, options, how, components, context, front.surface, cells)) return front;
+    if ((options.exact_triangles > 0 || options.exact_above > 0) &&
+        extract_instead(level, options, how, components, context, front.surface, cells))
+        return front;
+    front.surface = {};
     const CoalescibleBlocks blocks(level.high, std::max(options.max_level, 1), context);
     const std::unique_ptr<FrontLeaves> leaves = choose_leaves(blocks, options, context);
     if (components.contours.empty()) require_triangles(number_of(*leaves), how.surface, "at least ");  // a leaf has one or more

@@ -3,16 +3,9 @@
 #include <meshoptimizer.h>
 
 #include <limits>
-#include <utility>
+#include <vector>
 
 namespace isoatlas {
-
-std::vector<unsigned> fewer_triangles(std::span<const unsigned> corners, std::span<const float> positions, std::size_t max) {
-    std::vector<unsigned> kept(corners.size());
-    kept.resize(meshopt_simplifySloppy(kept.data(), corners.data(), corners.size(), positions.data(), positions.size() / 3,
-                                       3 * sizeof(float), 3 * max, std::numeric_limits<float>::max(), nullptr));
-    return kept;
-}
 
 Surface coarse_surface(Surface surface, std::size_t max) {
     if (surface.triangles.size() <= max) return surface;
@@ -26,7 +19,9 @@ Surface coarse_surface(Surface surface, std::size_t max) {
     for (const auto& point : surface.points) {
         for (const double coordinate : point) positions.push_back(static_cast<float>(coordinate));
     }
-    const std::vector<unsigned> kept = fewer_triangles(corners, positions, max);
+    std::vector<unsigned> kept(corners.size());
+    kept.resize(meshopt_simplifySloppy(kept.data(), corners.data(), corners.size(), positions.data(), surface.points.size(),
+                                       3 * sizeof(float), 3 * max, std::numeric_limits<float>::max(), nullptr));
     surface.triangles.resize(kept.size() / 3);
     for (std::size_t i = 0; i < kept.size(); ++i) surface.triangles[i / 3][i % 3] = kept[i];
     return surface;

@@ -11,7 +11,6 @@
 #include "base/cancel.h"
 #include "base/parallel.h"
 #include "isoatlas/error.h"
-#include "preview/coarse_surface.h"
 #include "preview/distinct_places.h"
 
 namespace isoatlas {
@@ -39,16 +38,16 @@ struct Box {
     Vec3 low, high;
 };
 
-Box box_of(const Surface& surface) {
+Box box_of(std::span<const Vec3> points) {
     constexpr double far = std::numeric_limits<double>::infinity();
     Box box{{far, far, far}, {-far, -far, -far}};
-    for (const Vec3& point : surface.points) {
+    for (const Vec3& point : points) {
         for (std::size_t axis = 0; axis < 3; ++axis) {
             box.low[axis] = std::min(box.low[axis], point[axis]);
             box.high[axis] = std::max(box.high[axis], point[axis]);
         }
     }
-    return surface.points.empty() ? Box{{0, 0, 0}, {0, 0, 0}} : box;
+    return points.empty() ? Box{{0, 0, 0}, {0, 0, 0}} : box;
 }
 
 /// The unit sphere onto a square: the octahedron |x| + |y| + |z| = 1 with its lower half folded out.
@@ -63,14 +62,24 @@ std::array<std::int8_t, 2> octahedral(const std::array<float, 3>& normal) {
     return {static_cast<std::int8_t>(std::lround(127 * x)), static_cast<std::int8_t>(std::lround(127 * y))};
 }
 
-std::vector<WirePoint> quantised(const Surface& surface, const Header& header, int threads) {
-    std::vector<WirePoint> points(surface.points.size());
+Header header_of(std::span<const Vec3> points, double step) {
+    const Box box = box_of(points);
+    Header header;
+    header.origin = box.low;
+    header.step = step;
+    for (std::size_t axis = 0; axis < 3; ++axis) header.step = std::max(header.step, (box.high[axis] - box.low[axis]) / kSteps);
+    return header;
+}
+
+std::vector<WirePoint> quantised(std::span<const Vec3> places, std::span<const std::array<float, 3>> normals, const Header& header,
+                                 int threads) {
+    std::vector<WirePoint> points(places.size());
     for_each_index(threads, points.size(), [&](std::size_t i) {
         for (std::size_t axis = 0; axis < 3; ++axis) {
-            const double steps = std::round((surface.points[i][axis] - header.origin[axis]) / header.step);
+            const double steps = std::round((places[i][axis] - header.origin[axis]) / header.step);
             points[i].position[axis] = static_cast<std::uint16_t>(std::clamp(steps, 0.0, kSteps));
         }
-        points[i].normal = octahedral(surface.normals[i]);
+        points[i].normal = octahedral(normals[i]);
     });
     return points;
 }
@@ -81,14 +90,6 @@ std::vector<unsigned> corners_of(const Surface& surface, int threads) {
         for (std::size_t k = 0; k < 3; ++k) corners[3 * i + k] = static_cast<unsigned>(surface.triangles[i][k]);
     });
     return corners;
-}
-
-/// Simplifies to a max number of triangles by vertex clustering.
-std::vector<unsigned> fewer(const std::vector<unsigned>& corners, const std::vector<WirePoint>& points, std::size_t max) {
-    std::vector<float> positions;
-    positions.reserve(3 * points.size());
-    for (const WirePoint& point : points) positions.insert(positions.end(), point.position.begin(), point.position.end());
-    return fewer_triangles(corners, positions, max);
 }
 
 /// A part of the triangles in strips. Their points have close indices: memory is allocated for those only.
@@ -153,33 +154,16 @@ void choose_versions() {
     (void)chosen;
 }
 
-void check(const Surface& surface) {
-    if (surface.points.size() < (std::size_t{1} << 31) && surface.triangles.size() < (std::size_t{1} << 30)) return;
+void check(std::size_t points, std::size_t triangles) {
+    if (points < (std::size_t{1} << 31) && triangles < (std::size_t{1} << 30)) return;
     throw Error(ErrorKind::resource, {.what = "the surface has too many triangles for a viewer",
                                       .expected = "fewer than 2^30",
                                       .next = "request one object, or another isovalue"});
 }
 
-}  // namespace
-
-WireMesh wire_mesh(const Surface& surface, const WireOptions& options, const Context& context) {
-    check(surface);
+void write(Header& header, const std::vector<WirePoint>& points, const std::vector<unsigned>& corners, const Context& context,
+           WireMesh& mesh) {
     choose_versions();
-    const Box box = box_of(surface);
-    Header header;
-    header.origin = box.low;
-    header.step = options.step;
-    for (std::size_t axis = 0; axis < 3; ++axis) header.step = std::max(header.step, (box.high[axis] - box.low[axis]) / kSteps);
-    std::vector<WirePoint> points = quantised(surface, header, context.threads);
-    std::vector<unsigned> corners = corners_of(surface, context.threads);
-    WireMesh mesh;
-    mesh.coarse = options.max_triangles > 0 && surface.triangles.size() > static_cast<std::size_t>(options.max_triangles);
-    stop_if_cancelled(context);
-    if (mesh.coarse) corners = fewer(corners, points, static_cast<std::size_t>(options.max_triangles));
-    if (options.strips) put_all_in_strips(corners, context);
-    put_in_order(corners, points);
-    if (options.distinct) mesh.without_area = part(points, corners);
-    stop_if_cancelled(context);
     mesh.points = static_cast<std::int64_t>(points.size());
     mesh.triangles = static_cast<std::int64_t>(corners.size() / 3);
     Bytes point_bytes, triangle_bytes;
@@ -192,6 +176,30 @@ WireMesh wire_mesh(const Surface& surface, const WireOptions& options, const Con
     mesh.bytes.append(reinterpret_cast<const char*>(&header), sizeof header);
     for (const Bytes& bytes : {std::cref(point_bytes), std::cref(triangle_bytes)})
         mesh.bytes.append(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+}
+
+}  // namespace
+
+WireMesh wire_mesh(const Surface& surface, const WireOptions& options, const Context& context) {
+    check(surface.points.size(), surface.triangles.size());
+    Header header = header_of(surface.points, options.step);
+    std::vector<WirePoint> points = quantised(surface.points, surface.normals, header, context.threads);
+    std::vector<unsigned> corners = corners_of(surface, context.threads);
+    WireMesh mesh;
+    stop_if_cancelled(context);
+    if (options.strips) put_all_in_strips(corners, context);
+    put_in_order(corners, points);
+    if (options.distinct) mesh.without_area = part(points, corners);
+    stop_if_cancelled(context);
+    write(header, points, corners, context, mesh);
+    return mesh;
+}
+
+WireMesh wire_points(const PointCloud& cloud, double step, const Context& context) {
+    check(cloud.points.size(), 0);
+    Header header = header_of(cloud.points, step);
+    WireMesh mesh;
+    write(header, quantised(cloud.points, cloud.normals, header, context.threads), {}, context, mesh);
     return mesh;
 }
 

@@ -17,21 +17,22 @@
 
 #include "isoatlas/context.h"
 #include "isoatlas/surface.h"
+#include "isoatlas/surface_methods.h"
 
 namespace isoatlas {
 
 struct WireOptions {
-    double step = 0;                 ///< of positions, physical; larger where 65536 steps do not span the surface. Positive
-    std::int64_t max_triangles = 0;  ///< reduced by vertex clustering above this; 0: no limit
-    bool strips = true;              ///< triangles in strips: a seventh fewer bytes, most of the time
+    double step = 0;        ///< of positions, physical; larger where 65536 steps do not span the surface. Positive
+    bool strips = true;     ///< triangles in strips: a seventh fewer bytes, most of the time
     bool distinct = false;  ///< points keep places of their own and triangles an area (distinct_places.h), for files without indices
 };
 
 struct WireMesh {
     std::string bytes;
     std::int64_t points = 0, triangles = 0;
-    bool coarse = false;               ///< triangles were left out
-    std::optional<double> distance{};  ///< of a level of detail from the exact surface, at most, in voxels; the caller sets it
+    bool coarse = false;               ///< not of the exact surface; the caller sets it, and what follows
+    double spacing = 0;                ///< SurfaceSample::spacing of points alone; 0: a surface
+    std::optional<double> distance{};  ///< of a level of detail from the exact surface, at most, in voxels
     std::optional<double> pixels{};    ///< the same as it is seen, in pixels
     std::size_t without_area = 0;      ///< WireOptions::distinct: triangles without area nevertheless
 };
@@ -39,5 +40,8 @@ struct WireMesh {
 /// surface: of a 3D volume, with normals. Throws Error: resource (more than 2^31 points or 2^30 triangles), cancelled.
 /// Cost: about 300 ns a triangle, 100 ns without strips; 60 bytes of memory.
 [[nodiscard]] WireMesh wire_mesh(const Surface& surface, const WireOptions& options, const Context& context = {});
+
+/// Points alone, without triangles, in their order. Throws Error{resource} for more than 2^31.
+[[nodiscard]] WireMesh wire_points(const PointCloud& cloud, double step, const Context& context = {});
 
 }  // namespace isoatlas

@@ -115,13 +115,18 @@ private:
     /// Throws where a response would exceed its memory budget.
     [[nodiscard]] Surface extract(const Atlas& atlas, double tau, SurfaceOptions options, const Context& context) const;
     [[nodiscard]] std::int64_t max_triangles() const;
-    [[nodiscard]] WireMesh wire(const Surface& surface, std::int64_t max, const Context& context, bool strips = true) const;
+    [[nodiscard]] WireMesh wire(const Surface& surface, const Context& context, bool strips = true) const;
+    /// Points of it that are drawn as soon as so many triangles, in place of a surface with another topology.
+    [[nodiscard]] WireMesh wire_sample(const Surface& surface, std::int64_t triangles, const Context& context) const;
+    /// Of positions, physical.
+    [[nodiscard]] double step() const;
     [[nodiscard]] WireMesh wire_front(const FrontSurface& front, const Context& context) const;
     /// The exact surface, if it has no more triangles than wanted; else one with its topology by blocks of an octree; if that has more,
-    /// too, it is reduced without a promise. The object is searched once.
+    /// too, points of it. The object is searched once.
     [[nodiscard]] WireMesh unprepared(const Atlas& atlas, double tau, const SurfaceOptions& options, std::int64_t triangles,
                                       const Context& context) const;
-    /// A surface of at most so many triangles, if it can be reduced to so many: a level of detail where the store has it.
+    /// A surface of at most so many triangles, with the topology of the exact one: a level of detail where the store has it; points of it
+    /// where there is no such surface.
     [[nodiscard]] WireMesh mesh_of(const Atlas& atlas, double tau, const SurfaceOptions& options, const MeshWanted& wanted,
                                    const Context& context);
     /// The surface of the entry that every page shows first, on this thread.

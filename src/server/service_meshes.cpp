@@ -11,6 +11,7 @@
 #include "isoatlas/cards.h"
 #include "isoatlas/isovalue.h"
 #include "isoatlas/polarity.h"
+#include "preview/sample_surface.h"
 #include "server/answers.h"
 #include "server/download.h"
 #include "server/fewer_triangles.h"
@@ -26,8 +27,10 @@ namespace {
 constexpr std::int64_t kFirstTriangles = 20'000;  ///< max of the first request of a page (web/src/viewer/api/surfaces.ts)
 constexpr std::int64_t kTriangleBytes = 128;      ///< of a triangle while a response is made
 constexpr std::int64_t kMaxPointDivisions = 8;
-constexpr int kFrontLevel = 4;        ///< blocks of a front are at most 16 cells wide
-constexpr double kStepsOfVoxel = 64;  ///< steps of positions per voxel
+constexpr int kFrontLevel = 4;                 ///< blocks of a front are at most 16 cells wide
+constexpr double kStepsOfVoxel = 64;           ///< steps of positions per voxel
+constexpr std::int64_t kTimesOfFront = 16;     ///< a front seldom has fewer triangles than the exact surface by more than that
+constexpr std::int64_t kPointsOfTriangle = 2;  ///< a point takes less memory and bytes than a triangle, and more pixels
 
 /// Which entry every page shows first: one that is more than background, if there is any (firstToShow() of web/src/shared/cards.ts).
 template <class Entry>
@@ -130,8 +133,9 @@ bool Service::is_first(const Atlas& atlas, double tau, const SurfaceOptions& opt
 WireMesh Service::mesh_of(const Atlas& atlas, double tau, const SurfaceOptions& options, const MeshWanted& wanted, const Context& context) {
     const std::optional<SeenSurface> level = levels_.find(atlas, options, tau, wanted);
     if (!level) return unprepared(atlas, tau, options, wanted.triangles, context);
-    WireMesh mesh = wire(level->simplified.surface, wanted.triangles, context);
-    if (mesh.coarse) return mesh;  // reduced once more, without a promise
+    if (std::ssize(level->simplified.surface.triangles) > wanted.triangles)
+        return wire_sample(level->simplified.surface, wanted.triangles, context);
+    WireMesh mesh = wire(level->simplified.surface, context);
     mesh.coarse = level->simplified.distance > 0;
     mesh.distance = level->simplified.distance;
     if (wanted.from) mesh.pixels = level->pixels;
@@ -140,18 +144,26 @@ WireMesh Service::mesh_of(const Atlas& atlas, double tau, const SurfaceOptions& 
 
 WireMesh Service::unprepared(const Atlas& atlas, double tau, const SurfaceOptions& options, std::int64_t triangles,
                              const Context& context) const {
-    if (atlas.info().extent.rank == 2) return wire(extract(atlas, tau, options, context), triangles, context);
+    if (atlas.info().extent.rank == 2) return wire(extract(atlas, tau, options, context), context);
     const std::int64_t few = std::min(triangles, max_triangles());
     SurfaceOptions all = options;
     all.max_triangles = max_triangles();
-    const FrontSurface front = atlas.extract_front(tau, {.max_level = kFrontLevel, .triangles = few, .exact_triangles = few}, all, context);
-    if (front.leaves.empty()) return wire(front.surface, 0, context);
-    if (std::ssize(front.surface.triangles) <= few) return wire_front(front, context);
-    return wire(front.surface, triangles, context);
+    const FrontOptions wanted{.max_level = kFrontLevel, .triangles = few, .exact_triangles = few, .exact_above = kTimesOfFront * few};
+    const FrontSurface front = atlas.extract_front(tau, wanted, all, context);
+    if (std::ssize(front.surface.triangles) > few) return wire_sample(front.surface, few, context);
+    return front.leaves.empty() ? wire(front.surface, context) : wire_front(front, context);
+}
+
+WireMesh Service::wire_sample(const Surface& surface, std::int64_t triangles, const Context& context) const {
+    const SurfaceSample sample = sample_surface(surface, kPointsOfTriangle * triangles);
+    WireMesh mesh = wire_points(sample.cloud, step(), context);
+    mesh.coarse = true;
+    mesh.spacing = sample.spacing;
+    return mesh;
 }
 
 WireMesh Service::wire_front(const FrontSurface& front, const Context& context) const {
-    WireMesh mesh = wire(front.surface, 0, context, false);  // soon replaced: the sooner it is there the better
+    WireMesh mesh = wire(front.surface, context, false);  // soon replaced: the sooner it is there the better
     const auto widest = std::ranges::find_if(front.leaves.rbegin(), front.leaves.rend(), [](std::int64_t count) { return count > 0; });
     mesh.coarse = true;  // both surfaces of a block lie in it
     mesh.distance = std::sqrt(3.0) * static_cast<double>(std::int64_t{1} << (front.leaves.rend() - widest - 1));
@@ -192,12 +204,13 @@ Response Service::surface_answer(const Request& request) {
     const auto make = [&](const Context& own) {
         if (!divisions) return mesh_of(atlas, stored, options, wanted, own);
         const Surface surface = extract(atlas, stored, options, own);
-        return wire(points_as_squares(atlas, surface, {static_cast<int>(*divisions), max_triangles(), memory_}, own), 0, own);
+        return wire(points_as_squares(atlas, surface, {static_cast<int>(*divisions), max_triangles(), memory_}, own), own);
     };
     WireMesh mesh = !divisions && is_first(atlas, stored, options, wanted) ? first_.get(context, make) : make(context);
     Response answer = file_answer(std::move(mesh.bytes));
     answer.headers["X-Triangles"] = std::to_string(mesh.triangles);
     answer.headers["X-Coarse"] = mesh.coarse ? "1" : "0";
+    if (mesh.spacing > 0) answer.headers["X-Spacing"] = number_text(mesh.spacing);
     if (mesh.distance) answer.headers["X-Distance"] = number_text(*mesh.distance);
     if (mesh.pixels) answer.headers["X-Pixels"] = number_text(*mesh.pixels);
     return answer;
@@ -210,9 +223,10 @@ Surface Service::extract(const Atlas& atlas, double tau, SurfaceOptions options,
     return atlas.extract(tau, options, context);
 }
 
-WireMesh Service::wire(const Surface& surface, std::int64_t max, const Context& context, bool strips) const {
-    const double spacing = std::ranges::min(store_state_.sides().main.info().geometry.spacing);
-    return wire_mesh(surface, {.step = spacing / kStepsOfVoxel, .max_triangles = max, .strips = strips}, context);
+double Service::step() const { return std::ranges::min(store_state_.sides().main.info().geometry.spacing) / kStepsOfVoxel; }
+
+WireMesh Service::wire(const Surface& surface, const Context& context, bool strips) const {
+    return wire_mesh(surface, {.step = step(), .strips = strips}, context);
 }
 
 }  // namespace isoatlas

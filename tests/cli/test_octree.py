@@ -94,6 +94,32 @@ class Octree(CliTest):
             self.run_error(2, "extract", "demo.nrrd", "--tau", "90", *options, *output, says=said)
             self.assertFalse((self.folder / "front.glb").exists())
 
+    def test_viewers_get_the_exact_topology_or_points(self):
+        """However few triangles may be drawn: never a mesh with another Euler number."""
+        self.run_ok("build", "demo.nrrd", "-o", "demo.atlas")
+        exact = self.run_json("extract", "demo.atlas", "--tau", "90", "-o", "exact.ply")
+        viewer = Viewer(self.folder, "demo.atlas")
+        kinds = set()
+        try:
+            for most in (1, 10, 100, *(exact["triangles"] * part // 24 for part in range(1, 26, 3))):
+                status, headers, mesh = viewer.ask(f"/api/surface?tau=90&max={most}")
+                self.assertEqual(status, 200)
+                _, points, triangles = struct.unpack_from("<4sII", mesh)
+                self.assertEqual(triangles, int(headers["X-Triangles"]))
+                self.assertLessEqual(triangles, most)
+                if triangles == 0:
+                    kinds.add("points")
+                    self.assertTrue(0 < points <= 2 * most)
+                    self.assertEqual(headers["X-Coarse"], "1")
+                    self.assertGreater(float(headers["X-Spacing"]), 0)
+                    continue
+                self.assertNotIn("X-Spacing", headers)
+                kinds.add("front" if headers["X-Coarse"] == "1" else "exact")
+                self.assertEqual(points - triangles // 2, exact["points"] - exact["triangles"] // 2)  # of closed surfaces
+        finally:
+            viewer.stop()
+        self.assertEqual(kinds, {"points", "front", "exact"})
+
     @harness.unittest.skipIf(harness.SANITIZED, "a sanitizer takes more than the memory of the server")
     def test_a_server_with_little_memory_draws_blocks(self):
         """More triangles than its memory allows: a front, with the same Euler number, and how far it may be."""

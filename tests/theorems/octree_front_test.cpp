@@ -113,8 +113,8 @@ void hits_are_seen_within_the_pixels() {
     RC_ASSERT(unseen_by(front, c.volume, c.exact.tau, options, c.exact.interpolant, 1) == 0);
 }
 
-/// By the same search; the triangles of all objects count.
-void surfaces_of_few_triangles_are_exact() {
+/// By the same search; the triangles of all objects count where they are few, those that are chosen where they are too many.
+void surfaces_of_few_or_too_many_triangles_are_exact() {
     const CoarseCase c;
     RC_PRE(c.exact.closed && !c.exact.triangles.empty());
     FrontOptions options = arbitrary_front(c.volume.info.extent);
@@ -124,9 +124,12 @@ void surfaces_of_few_triangles_are_exact() {
     if (*rc::gen::arbitrary<bool>()) how.surface.objects = {*rc::gen::elementOf(c.exact.object)};
     const Surface exact = isoatlas::extract(c.volume, c.exact.tau, how);
     const Surface front = extract_front(c.volume, c.exact.tau, options, how).surface;
-    options.exact_triangles = *rc::gen::element<std::int64_t>(1, triangles - 1, triangles, 2 * triangles);
+    const auto chosen_triangles = std::ssize(exact.triangles);
+    options.exact_triangles = *rc::gen::element<std::int64_t>(0, 1, triangles - 1, triangles, 2 * triangles);
+    options.exact_above = *rc::gen::element<std::int64_t>(0, 1, chosen_triangles - 1, chosen_triangles, triangles - 1, triangles);
     const FrontSurface chosen = extract_front(c.volume, c.exact.tau, options, how, arbitrary_context());
-    const bool is_exact = triangles <= options.exact_triangles;
+    const bool is_exact =
+        triangles <= options.exact_triangles || (options.exact_above > 0 && std::ssize(exact.triangles) > options.exact_above);
     RC_ASSERT(chosen.leaves.empty() == is_exact);
     RC_ASSERT(chosen.surface.points == (is_exact ? exact : front).points);
     RC_ASSERT(chosen.surface.triangles == (is_exact ? exact : front).triangles);
@@ -371,7 +374,7 @@ TEST(OctreeFronts, RefuseOptionsOutOfRange) {
     EXPECT_EQ(refused(isoatlas::make_volume<float>({2, {4, 4, 1}}, flat), {}), isoatlas::ErrorKind::unsupported);
 }
 
-RC_GTEST_PROP(OctreeFronts, OfFewTrianglesAreExact, ()) { surfaces_of_few_triangles_are_exact(); }
+RC_GTEST_PROP(OctreeFronts, OfFewOrTooManyTrianglesAreExact, ()) { surfaces_of_few_or_too_many_triangles_are_exact(); }
 RC_GTEST_PROP(OctreeFronts, HaveTheContoursOfTheExactSurface, ()) { fronts_have_the_contours_of_the_exact_surface(); }
 RC_GTEST_PROP(OctreeFronts, StayWithinTheirDeviation, ()) { hits_stay_within_the_deviation(); }
 RC_GTEST_PROP(OctreeFronts, AreSeenWithinTheirPixels, ()) { hits_are_seen_within_the_pixels(); }

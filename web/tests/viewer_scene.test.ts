@@ -198,6 +198,34 @@ describe.skipIf(!canServe)("the scene", () => {
     await tab.close();
   });
 
+  it("draws points while a surface has too many triangles", async () => {
+    const { tab } = await served.open(scene(1));
+    await settled(tab);
+    const drawn = (): Promise<number> =>
+      tab.evaluate(() => {
+        const canvas = document.querySelector<HTMLCanvasElement>(".viewport canvas")!;
+        const copy = document.createElement("canvas");
+        [copy.width, copy.height] = [canvas.width, canvas.height];
+        const pen = copy.getContext("2d")!;
+        pen.drawImage(canvas, 0, 0);
+        const { data } = pen.getImageData(0, 0, copy.width, copy.height);
+        return data.filter((value, i) => i % 4 === 3 && value > 128).length;
+      });
+    const whole = await drawn();
+    await tab.route("**/api/surface*", (route) => route.continue({ url: route.request().url().replace(/max=\d+/, "max=2000") }));
+    const slider = tab.getByRole("slider", { name: "isovalue, on the histogram" });
+    await slider.evaluate((input: HTMLInputElement) => {
+      input.value = String(Number(input.value) + 0.01);
+      input.dispatchEvent(new Event("input"));
+    });
+    await expect.poll(() => tab.locator(".scene .state").textContent()).toContain("4,000 points of it");
+    await expect.poll(async () => Math.abs((await drawn()) / whole - 1)).toBeLessThan(0.2);
+    await tab.unroute("**/api/surface*");
+    await slider.dispatchEvent("change");
+    await settled(tab);
+    await tab.close();
+  });
+
   it("loads coarse surfaces during a drag, a full one at its end, and updates the isovalue immediately", async () => {
     const { tab } = await served.open(scene(1));
     await settled(tab);

@@ -141,13 +141,13 @@ describe("surfaces", () => {
     expect(asked.map(({ most }) => most / 20_000)).toEqual([1, 2, 4, 8, 16, 32, 32, 32]);
 
     const budget = new DragBudget(20_000);
-    const after = (milliseconds: number, isReduced = true, frame = 0): number => {
-      budget.took(milliseconds, isReduced, frame);
+    const after = (milliseconds: number, isCoarse = true, frame = 0): number => {
+      budget.took(milliseconds, isCoarse, frame);
       return budget.triangles;
     };
     expect([199, 99, 99].map((quick) => after(quick))).toEqual([40_000, 80_000, 160_000]);
     expect([after(99, false), after(300), after(500), after(500, false)]).toEqual([160_000, 160_000, 40_000, 20_000]);
-    expect([after(99, true, 60), after(99, true, 40), after(99, true, 130)]).toEqual([20_000, 40_000, 20_000]);
+    expect([after(99, true, 90), after(99, true, 70), after(99, true, 170)]).toEqual([20_000, 40_000, 20_000]);
   });
 });
 
@@ -217,6 +217,28 @@ describe("large surfaces with levels of detail", () => {
 
 describe("surfaces as points", () => {
   const request = (tau: number) => ({ tau, target: null, walls: "all" as const });
+  it("are some of their points while they have too many triangles", async () => {
+    const some = { triangles: 0, positions: new Uint16Array(3 * 40), bytes: 9, coarse: true, isOpen: false, spacing: 0.5 } as Mesh;
+    const asked: number[] = [];
+    const api = {
+      surface: (_: string, __: number, ___: unknown, most: number) => (
+        asked.push(most), Promise.resolve(most < 1e8 ? some : { ...some, triangles: 8, coarse: false, spacing: undefined })
+      ),
+    } as unknown as Api;
+    const surfaces = new Surfaces(
+      api,
+      () => undefined,
+      () => undefined,
+    );
+    surfaces.request(0, request(1), true);
+    await surfaces.settled();
+    expect(surfaces.loadStateOf(0)).toMatchObject({ points: 40, triangles: 0, coarse: true, within: null });
+    surfaces.request(0, request(1), false);
+    await surfaces.settled();
+    expect(surfaces.loadStateOf(0)).toMatchObject({ points: 0, triangles: 8, coarse: false });
+    expect(asked).toEqual([20_000, 100_000_000]);
+  });
+
   it("come after coarse triangles, and again as triangles", async () => {
     const asked: string[] = [];
     const mesh = { triangles: 8, bytes: 9, coarse: false, isOpen: false } as Mesh;
@@ -247,11 +269,12 @@ describe("the state of a surface", () => {
   const there = { ...nothing, key: "5 all", triangles: 1234, coarse: true, waiting: true };
   it("is its load state in words", () => {
     const shown = shownAt(0, 5);
-    expect(noteOf(shown, there)).toBe("at 5, 1,234 triangles, coarse: not the exact topology");
+    expect(noteOf(shown, { ...there, coarse: false })).toBe("at 5, 1,234 triangles");
     expect(noteOf(shown, { ...there, within: 3.9375 })).toBe("at 5, 1,234 triangles, coarse: exact topology, within 3.938 voxels");
     const seen = { ...there, coarse: false, within: 3, pixels: 0.52 };
     expect(noteOf(shown, seen)).toBe("at 5, 1,234 triangles: exact topology, within 0.52 pixels");
-    expect(noteOf(shown, { ...there, points: 617 })).toBe("at 5, 617 points");
+    expect(noteOf(shown, { ...there, points: 617 })).toBe("at 5, 617 points of it");
+    expect(noteOf(shown, { ...there, points: 617, coarse: false })).toBe("at 5, 617 points");
     expect(noteOf({ ...shown, tau: 6 }, there)).toBe("at 6, loading");
     expect(noteOf({ ...shown, visible: false }, there)).toBe("at 5, hidden");
     expect(noteOf(shown, { ...there, triangles: 0, error: failureText(new ServerError(404, "no")) })).toBe("at 5, does not exist");

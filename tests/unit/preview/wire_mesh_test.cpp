@@ -9,6 +9,7 @@
 #include <cstring>
 #include <map>
 
+#include "geometry/vectors.h"
 #include "isoatlas/phantom.h"
 
 namespace isoatlas {
@@ -125,14 +126,19 @@ TEST(WireMesh, StepsGrowWhereTheyWouldNotReach) {
     for (const Vec3& point : result.points) EXPECT_LE(point[0], 48.0);
 }
 
-TEST(WireMesh, CoarseHasFewerTriangles) {
-    const Surface surface = surface_of("torus-chain", 0.5, 48);
-    const auto all = static_cast<std::int64_t>(surface.triangles.size());
-    const WireMesh coarse = wire_mesh(surface, {.step = 0.01, .max_triangles = all / 10});
-    EXPECT_TRUE(coarse.coarse);
-    EXPECT_LE(coarse.triangles, all / 10);
-    EXPECT_GT(coarse.triangles, all / 100);
-    EXPECT_EQ(decoded(coarse).triangles.size(), static_cast<std::size_t>(coarse.triangles));
+TEST(WireMesh, PointsAloneHaveNoTriangles) {
+    const Surface surface = surface_of("torus-chain", 0.5);
+    const PointCloud cloud{surface.points, surface.normals};
+    const WireMesh mesh = wire_points(cloud, 0.01);
+    EXPECT_EQ(mesh.points, std::ssize(cloud.points));
+    EXPECT_EQ(mesh.triangles, 0);
+    const Decoded result = decoded(mesh);
+    ASSERT_EQ(result.points.size(), cloud.points.size());
+    for (std::size_t i = 0; i < cloud.points.size(); ++i) {
+        EXPECT_LT(norm(minus(result.points[i], cloud.points[i])), 0.01);
+        for (std::size_t axis = 0; axis < 3; ++axis) EXPECT_NEAR(result.normals[i][axis], cloud.normals[i][axis], 0.02);
+    }
+    EXPECT_EQ(decoded(wire_points({}, 0.01)).points.size(), 0U);
 }
 
 TEST(WireMesh, SameBytesForAnyThreads) {

@@ -20,6 +20,8 @@ export interface Mesh {
   pixels?: number;
   /** squares of points: not closed where it is cut */
   isOpen: boolean;
+  /** of points of a surface without its triangles: about how far they are apart */
+  spacing?: number;
   /** encoded size, before compression by HTTP */
   bytes: number;
 }

@@ -200,7 +200,10 @@ export class Api {
     return response.objects;
   }
 
-  /** maxTriangles: the mesh is simplified to fewer triangles if it has more; eye: less where it is near, if there are levels of detail. */
+  /**
+   * maxTriangles: if there are more, a coarser surface with the same topology, or else so many points of it; eye: less where it is near, if
+   * there are levels of detail.
+   */
   surface(channel: string, tau: number, target: SurfaceTarget, maxTriangles: number, walls: ShellFilter = "all", eye?: Eye): Promise<Mesh> {
     return this.mesh(channel, `tau=${tau}${parameters(target)}${shell(walls)}&max=${maxTriangles}${seenFrom(eye)}`);
   }
@@ -216,10 +219,13 @@ export class Api {
     try {
       const response = await this.request(`/api/surface?${query}`, channel);
       const mesh = await decodeMesh(await response.arrayBuffer(), response.headers.get("X-Coarse") === "1");
-      const distance = response.headers.get("X-Distance");
-      const pixels = response.headers.get("X-Pixels");
-      if (distance === null) return mesh;
-      return { ...mesh, within: Number(distance), ...(pixels !== null && { pixels: Number(pixels) }) };
+      const [within, pixels, spacing] = ["X-Distance", "X-Pixels", "X-Spacing"].map((name) => response.headers.get(name)) as (string | null)[];
+      return {
+        ...mesh,
+        ...(within && { within: Number(within) }),
+        ...(pixels && { pixels: Number(pixels) }),
+        ...(spacing && { spacing: Number(spacing) }),
+      };
     } finally {
       --this.surfaces;
     }

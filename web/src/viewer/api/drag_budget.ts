@@ -1,5 +1,6 @@
 // How many triangles surfaces may have while an isovalue is dragged: as many as arrive in time and are drawn in time, which without a
-// graphics card are few. Coarse ones of few triangles need not have the topology of the exact surface.
+// graphics card are few. A surface that has the topology of the exact one and few enough triangles is not always there: then points of it are
+// drawn.
 
 /** the most triangles, in the fewest ones */
 const MOST = 32;
@@ -7,8 +8,8 @@ const MOST = 32;
 const QUICK = 200;
 const SLOW = 400;
 /** ms: the same of a frame */
-const QUICK_FRAME = 50;
-const SLOW_FRAME = 120;
+const QUICK_FRAME = 80;
+const SLOW_FRAME = 160;
 
 export class DragBudget {
   private most: number;
@@ -23,12 +24,12 @@ export class DragBudget {
   }
 
   /**
-   * A surface was there after so many milliseconds, and a frame takes so many. isReduced: the exact one has more triangles than were
+   * A surface was there after so many milliseconds, and a frame takes so many. isCoarse: the exact one has more triangles than were
    * allowed.
    */
-  took(milliseconds: number, isReduced: boolean, frame = 0): void {
+  took(milliseconds: number, isCoarse: boolean, frame = 0): void {
     if (milliseconds > SLOW) this.most = Math.max(this.most / 4, this.fewest);
     else if (frame > SLOW_FRAME) this.most = Math.max(this.most / 2, this.fewest);
-    else if (milliseconds < QUICK && frame < QUICK_FRAME && isReduced) this.most = Math.min(2 * this.most, MOST * this.fewest);
+    else if (milliseconds < QUICK && frame < QUICK_FRAME && isCoarse) this.most = Math.min(2 * this.most, MOST * this.fewest);
   }
 }

@@ -24,11 +24,11 @@ export interface LoadState {
   /** keyOf() its request; empty: nothing is loaded yet */
   key: string;
   triangles: number;
-  /** drawn instead of triangles; 0: none */
+  /** drawn instead of triangles: if coarse, some of a surface that has too many; 0: none */
   points: number;
   bytes: number;
   coarse: boolean;
-  /** of fewer triangles than the exact surface has: with its topology, at most so many voxels from it; null: without a promise */
+  /** of fewer triangles than the exact surface has: with its topology, at most so many voxels from it; null: it is exact, or points */
   within: number | null;
   /** no part of it is seen farther than so many pixels from the exact surface; null: it does not depend on the view */
   pixels: number | null;
@@ -169,12 +169,12 @@ export class Surfaces {
           mesh = await this.meshOf(entry, request, maxTriangles);
           if (isStale()) return;
         }
-        const isLast = mesh.isOpen || mesh.pixels !== undefined || !(mesh.coarse || this.asPoints); // coarse triangles first, then points
-
+        const isFirst = mesh.coarse || (this.asPoints && !mesh.isOpen); // coarse triangles first, then points
+        const isLast = mesh.pixels !== undefined || !isFirst;
         channel.loadState = {
           key,
           triangles: mesh.triangles,
-          points: mesh.isOpen ? mesh.triangles / 2 : 0,
+          points: mesh.spacing !== undefined ? mesh.positions.length / 3 : mesh.isOpen ? mesh.triangles / 2 : 0,
           bytes: mesh.bytes,
           coarse: !isLast,
           within: mesh.within ?? null,

@@ -199,15 +199,14 @@ export function noteOf(shown: Shown, loadState: LoadState): string {
   if (!shown.visible) parts.push("hidden");
   else if (loadState.key !== keyOf(shown)) parts.push("loading");
   else if (loadState.error) parts.push(loadState.error);
+  else if (loadState.points > 0) parts.push(`${count(loadState.points)} points${loadState.coarse ? " of it" : ""}`);
   else if (shown.walls === "cavities" && loadState.triangles === 0) parts.push("no cavities");
   else if (loadState.walls) parts.push(`${plural(loadState.walls, "cavity", "cavities")}, ${count(loadState.triangles)} triangles`);
-  else if (loadState.points > 0) parts.push(`${count(loadState.points)} points`);
   else if (loadState.triangles > 0) parts.push(`${count(loadState.triangles)} triangles${distanceWords(loadState)}`);
   return parts.join(", ");
 }
 
 function distanceWords({ coarse, within, pixels }: LoadState): string {
   if (pixels !== null) return `: exact topology, within ${value(pixels)} ${pixels === 1 ? "pixel" : "pixels"}`;
-  if (!coarse) return "";
-  return within === null ? ", coarse: not the exact topology" : `, coarse: exact topology, within ${value(within)} voxels`;
+  return coarse && within !== null ? `, coarse: exact topology, within ${value(within)} voxels` : "";
 }

@@ -87,7 +87,7 @@ export class Scene {
   private onMesh(entry: number, mesh: Mesh | null, tau: number): void {
     const { viewport, history } = this.context;
     const i = history.now.shown.findIndex((shown) => shown.entry === entry);
-    if (!mesh || mesh.triangles === 0 || i < 0) viewport.remove(entry);
+    if (!mesh || mesh.positions.length === 0 || i < 0) viewport.remove(entry);
     else viewport.put(entry, mesh, this.appearanceOf(history.now, i), tau);
     this.fit();
   }

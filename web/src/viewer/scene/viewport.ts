@@ -3,13 +3,16 @@ import * as three from "three";
 import { cap, dispose } from "./clip";
 import { CameraRig } from "./camera_rig";
 import { clipped, firstHit, type Ray } from "./ray";
+import { SplatMaterial, splats } from "./splats";
 import type { Mesh } from "../../shared/wire";
 import type { Eye } from "../api/api";
 
 /** heights of the view, from where rays are as good as parallel */
 const FAR = 1e4;
+const ROUGH = { roughness: 0.55 };
 
-type Body = three.Mesh<three.BufferGeometry, three.MeshStandardMaterial>;
+type Solid = three.Mesh<three.BufferGeometry, three.MeshStandardMaterial>;
+type Body = Solid | three.Points<three.BufferGeometry, SplatMaterial>;
 
 /** Appearance of a surface. pickable: clicks hit it. */
 export interface Appearance {
@@ -41,6 +44,7 @@ export class Viewport {
   private readonly meshes = new Map<number, Mesh>();
   /** materials of removed bodies, reused: a shader is deleted with its last material, and would be compiled again */
   private readonly materialPool: three.MeshStandardMaterial[] = [];
+  private readonly splatPool: SplatMaterial[] = [];
   /** headlight, from above the left */
   private readonly light = new three.DirectionalLight(0xffffff, 1.8);
   /** its positive side stays; null: no clipping */
@@ -93,10 +97,8 @@ export class Viewport {
     const geometry = new three.BufferGeometry();
     geometry.setAttribute("position", new three.BufferAttribute(mesh.positions, 3));
     geometry.setAttribute("normal", new three.BufferAttribute(mesh.normals, 3, true));
-    geometry.setIndex(new three.BufferAttribute(mesh.corners, 1));
     this.release(key);
-    const material = this.materialPool.pop() ?? new three.MeshStandardMaterial({ roughness: 0.55, side: three.DoubleSide });
-    const body: Body = new three.Mesh(geometry, material);
+    const body = mesh.spacing === undefined ? this.solid(geometry, mesh) : this.splats(geometry, mesh);
     body.position.set(...mesh.origin);
     body.scale.setScalar(mesh.step);
     body.updateMatrixWorld();
@@ -238,12 +240,21 @@ export class Viewport {
     return caster;
   }
 
+  private solid(geometry: three.BufferGeometry, { corners }: Mesh): Body {
+    geometry.setIndex(new three.BufferAttribute(corners, 1));
+    return new three.Mesh(geometry, this.materialPool.pop() ?? new three.MeshStandardMaterial({ ...ROUGH, side: three.DoubleSide }));
+  }
+  private splats(geometry: three.BufferGeometry, mesh: Mesh): Body {
+    return splats(geometry, this.splatPool.pop() ?? new SplatMaterial(ROUGH), mesh);
+  }
+
   private release(key: number): void {
     const body = this.bodies.get(key);
     if (!body) return;
     this.scene.remove(body);
     body.geometry.dispose();
-    this.materialPool.push(body.material);
+    if (body instanceof three.Points) this.splatPool.push(body.material);
+    else this.materialPool.push(body.material);
     this.bodies.delete(key);
     this.meshes.delete(key);
   }
@@ -259,7 +270,7 @@ export class Viewport {
     for (const body of [...this.bodies.values()].sort((a, b) => Number(a.userData.tau) - Number(b.userData.tau))) {
       body.material.clippingPlanes = this.plane ? [this.plane] : [];
       body.renderOrder = this.plane ? 100 : 0;
-      if (this.plane && body.visible && body.userData.isOpen !== true) this.caps.push(cap(body, this.plane, order++));
+      if (this.plane && body.visible && body instanceof three.Mesh && body.userData.isOpen !== true) this.caps.push(cap(body, this.plane, order++));
     }
     for (const group of this.caps) this.scene.add(group);
     for (const listener of this.changeListeners) listener();
