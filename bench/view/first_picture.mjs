@@ -13,7 +13,7 @@ for (let run = 0; run < runs; ++run) {
   const server = await served(isoatlas, store);
   const tab = await tabOf(browser);
   await tab.goto(server.address, { waitUntil: "commit" });
-  coarse.push(await said(tab, "triangles|coarse"));
+  coarse.push(await said(tab, "triangles|points"));
   whole.push(await said(tab, "triangles$"));
   await tab.close();
   server.end();

@@ -8,7 +8,7 @@ import { argumentsOf, launched, said, served, share, tabOf } from "./viewer.mjs"
 
 const LINE = { offline: false, latency: 100, downloadThroughput: 1e6, uploadThroughput: 1e6 }; // ms, bytes a second
 
-/** In the page: milliseconds until each object has a surface, and its triangles. */
+/** In the page: milliseconds until each object has a surface or points of it, and what it has. */
 async function clicked(most) {
   const pause = (time) => new Promise((done) => setTimeout(done, time));
   const buttons = [...document.querySelectorAll(".cards .card:not(.selected) .picture")].slice(0, most);
@@ -19,7 +19,7 @@ async function clicked(most) {
     button.click();
     const isThere = () =>
       performance.getEntriesByType("resource").some(({ name }) => name.includes("/api/surface")) &&
-      /\d triangles/.test(document.querySelector(".scene .state")?.textContent ?? "");
+      /\d (triangles|points)/.test(document.querySelector(".scene .state")?.textContent ?? "");
     while (!isThere() && performance.now() - begun < 60_000) await pause(10);
     found.push({ time: performance.now() - begun, words: document.querySelector(".scene .state")?.textContent ?? "" });
     await pause(3000); // the whole surface comes, too, and is drawn
@@ -35,7 +35,7 @@ const session = await tab.context().newCDPSession(tab);
 await session.send("Network.enable");
 await session.send("Network.emulateNetworkConditions", LINE);
 await tab.goto(server.address, { waitUntil: "commit" });
-const opened = await said(tab, "triangles|coarse");
+const opened = await said(tab, "triangles|points");
 await said(tab, "triangles$");
 await new Promise((done) => setTimeout(done, 3000));
 const objects = await tab.evaluate(clicked, most);
