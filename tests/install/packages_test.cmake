@@ -36,6 +36,10 @@ foreach(file IN ITEMS man/man1/isoatlas.1 man/man1/isoatlas-view.1 bash-completi
   require("${file} is in the package" found)
 endforeach()
 run("analyse" ${WORK}/root/usr/bin/isoatlas phantom demo --size 32 -o ${WORK}/demo.nrrd)
+file(STRINGS ${BUILD}/CMakeCache.txt has_openvdb REGEX "^ISOATLAS_OPENVDB:BOOL=ON")
+if(has_openvdb)
+  run("a library is loaded on demand" ${WORK}/root/usr/bin/isoatlas label ${WORK}/demo.nrrd --tau 90 -o ${WORK}/labels.vdb --quiet)
+endif()
 run("a page" ${WORK}/root/usr/bin/isoatlas ${WORK}/demo.nrrd -o ${WORK}/demo.html --top 1 --quiet)
 require("it has written the page" EXISTS ${WORK}/demo.html)
 

@@ -26,6 +26,8 @@ LIBRARIES = {
     "verify": (["store"], ["verify"]),
 }
 LIBRARY_OF = {room: library for library, (_, rooms) in LIBRARIES.items() for room in rooms}
+OF_PROGRAMS = {"formats/on_demand": "formats"}  # rooms that programs compile, behind those of a library
+LIBRARY_OF |= OF_PROGRAMS
 FOLDERS = {room.split("/")[0] for room in LIBRARY_OF}
 # room -> public headers (isoatlas/NAME.h) that belong to it: rooms before it do not include them, as they do not include its own
 PUBLIC = {
@@ -94,6 +96,7 @@ DOORS = {
     r"hdf5\.h": r"src/formats/common/hdf5_(handle\.h|layout\.cpp)|src/formats/volume/hdf5_(file|heap|samples|storage|driver|object)\.(h|cpp)|tests/.*",
     r"xxhash\.h": r"src/codec/checksum\.h|src/remote/disk_cache\.cpp",
     r"curl/.*": r"src/remote/(address|transfer|http_client)\.(h|cpp)",
+    r"dlfcn\.h": r"src/formats/on_demand/load_part\.cpp",
     r"openvdb/.*": r"src/formats/volume/vdb_openvdb\.cpp",
     r"gdcm.*\.h": r"src/formats/volume/dicom_gdcm\.cpp",
     r"draco/.*": r"src/formats/mesh/draco_mesh\.cpp|tests/.*",
@@ -149,7 +152,7 @@ def may_include(room, target):
     own, other = LIBRARY_OF[room], LIBRARY_OF[target]
     if own != other:
         return other in needed(own)
-    rooms = LIBRARIES[own][1]
+    rooms = LIBRARIES[own][1] + list(OF_PROGRAMS)
     return rooms.index(target) <= rooms.index(room)
 
 

@@ -1,5 +1,5 @@
-// What a build without GDCM and OpenVDB says. Their files are compiled into this program without the libraries, and so replace those of
-// isoatlas::formats.
+// What a build without GDCM and OpenVDB says. The files that choose them are compiled into this program without the libraries, and so
+// replace those of isoatlas::formats.
 #include <gtest/gtest.h>
 
 #include "isoatlas/output.h"

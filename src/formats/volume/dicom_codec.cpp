@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "formats/common/field_reader.h"
+#include "formats/volume/dicom_library.h"
 
 namespace isoatlas {
 namespace {
@@ -142,7 +143,7 @@ std::string decode_dicom_frame(const std::string& path, const std::string& synta
                                std::span<const std::byte> packed, std::span<std::byte> out) {
     if (syntax == "1.2.840.10008.1.2.5") return decode_rle(pixels, packed, out);
     const std::string contradiction = jpeg_contradiction(pixels, packed);
-    return contradiction.empty() ? decode_with_gdcm(path, syntax, pixels, packed, out) : contradiction;
+    return contradiction.empty() ? dicom_decoder(path, syntax)(syntax, pixels, packed, out) : contradiction;
 }
 
 }  // namespace isoatlas

@@ -1,4 +1,4 @@
-// Compressed frames of DICOM files. RLE is decoded here; the JPEG family by GDCM, where the build has it (dicom_gdcm.cpp).
+// Compressed frames of DICOM files. RLE is decoded here; the JPEG family by GDCM, where it is there (dicom_library.h).
 #pragma once
 
 #include <cstddef>
@@ -20,9 +20,5 @@ namespace isoatlas {
 
 /// What a code stream of the JPEG family says of itself in contradiction to the data set; "": nothing. Decoders rely on the agreement.
 [[nodiscard]] std::string jpeg_contradiction(const DicomPixels& pixels, std::span<const std::byte> packed);
-
-/// dicom_gdcm.cpp: the same as decode_dicom_frame() for the JPEG family.
-[[nodiscard]] std::string decode_with_gdcm(const std::string& path, const std::string& syntax, const DicomPixels& pixels,
-                                           std::span<const std::byte> packed, std::span<std::byte> out);
 
 }  // namespace isoatlas

@@ -4,19 +4,14 @@
 #include <exception>
 #include <vector>
 
-#include "formats/volume/dicom_codec.h"
+#include "formats/volume/dicom_library.h"
 
-#ifdef ISOATLAS_WITH_GDCM
 #include <gdcmFragment.h>
 #include <gdcmImage.h>
 #include <gdcmSequenceOfFragments.h>
 #include <gdcmTrace.h>
-#endif
 
 namespace isoatlas {
-
-#ifdef ISOATLAS_WITH_GDCM
-
 namespace {
 
 gdcm::SmartPointer<gdcm::Image> gdcm_image(const std::string& syntax, const DicomPixels& pixels, std::span<const std::byte> packed) {
@@ -44,7 +39,7 @@ gdcm::SmartPointer<gdcm::Image> gdcm_image(const std::string& syntax, const Dico
 
 }  // namespace
 
-std::string decode_with_gdcm(const std::string&, const std::string& syntax, const DicomPixels& pixels, std::span<const std::byte> packed,
+std::string decode_with_gdcm(const std::string& syntax, const DicomPixels& pixels, std::span<const std::byte> packed,
                              std::span<std::byte> out) {
     gdcm::Trace::WarningOff();
     gdcm::Trace::ErrorOff();
@@ -59,20 +54,5 @@ std::string decode_with_gdcm(const std::string&, const std::string& syntax, cons
         return "GDCM cannot decode it";
     }
 }
-
-#else
-
-std::string decode_with_gdcm(const std::string& path, const std::string& syntax, const DicomPixels&, std::span<const std::byte>,
-                             std::span<std::byte>) {
-    throw Error(ErrorKind::unsupported,
-                {.file = path,
-                 .what = "the pictures are compressed by " + name_of_syntax(syntax) + ", which this build cannot decode",
-                 .expected = "a build with GDCM",
-                 .next = "install the package libgdcm-dev and build again, or decompress the files with gdcmconv",
-                 .reason = Reason::built_without_format,
-                 .value = "GDCM"});
-}
-
-#endif
 
 }  // namespace isoatlas

@@ -20,27 +20,17 @@
 #include "formats/volume/chunk_reader.h"
 #include "formats/volume/formats.h"
 #include "formats/volume/sample_reader.h"
-#include "formats/volume/vdb.h"
+#include "formats/volume/vdb_library.h"
 #include "formats/volume/vdb_stream.h"
 #include "isoatlas/text.h"
 #include "isoatlas/units.h"
 
-#ifdef ISOATLAS_WITH_OPENVDB
 #include <openvdb/io/Archive.h>
 #include <openvdb/io/Stream.h>
 #include <openvdb/openvdb.h>
 #include <openvdb/tools/Dense.h>
-#endif
 
 namespace isoatlas {
-
-bool looks_like_vdb(FirstBytes first, const std::string&) {
-    constexpr std::string_view kMagic("\x20\x42\x44\x56\0\0\0\0", 8);
-    return std::string_view(reinterpret_cast<const char*>(first.data()), first.size()).starts_with(kMagic);
-}
-
-#ifdef ISOATLAS_WITH_OPENVDB
-
 namespace {
 
 constexpr std::int64_t kChunk = 64;  ///< samples along each axis, eight leaves of a tree
@@ -314,13 +304,11 @@ void check_sizes(const Sink& sink, const VolumeInfo& info) {
     }
 }
 
-}  // namespace
-
-std::unique_ptr<VolumeReader> open_vdb(const std::string& path, const OpenOptions& options) {
+std::unique_ptr<VolumeReader> open(const std::string& path, const OpenOptions& options) {
     return guarded(path, [&] { return open_grid(path, options); });
 }
 
-void write_vdb(Sink& sink, const VolumeInfo& info, const SampleFeed& samples) {
+void write(Sink& sink, const VolumeInfo& info, const SampleFeed& samples) {
     check_sizes(sink, info);
     guarded(sink.name(), [&] {
         openvdb::initialize();
@@ -335,7 +323,7 @@ void write_vdb(Sink& sink, const VolumeInfo& info, const SampleFeed& samples) {
     });
 }
 
-void write_vdb_labels(Sink& sink, const VolumeInfo& info, const SampleFeed& samples) {
+void write_labels(Sink& sink, const VolumeInfo& info, const SampleFeed& samples) {
     check_sizes(sink, info);
     guarded(sink.name(), [&] {
         openvdb::initialize();
@@ -353,25 +341,8 @@ void write_vdb_labels(Sink& sink, const VolumeInfo& info, const SampleFeed& samp
     });
 }
 
-#else
-
-namespace {
-
-[[noreturn]] void built_without(const std::string& path) {
-    throw Error(ErrorKind::unsupported, {.file = path,
-                                         .what = "this build has no OpenVDB",
-                                         .expected = "a build with OpenVDB",
-                                         .next = "install the package libopenvdb-dev and build again, or take .nrrd",
-                                         .reason = Reason::built_without_format,
-                                         .value = "OpenVDB"});
-}
-
 }  // namespace
 
-std::unique_ptr<VolumeReader> open_vdb(const std::string& path, const OpenOptions&) { built_without(path); }
-void write_vdb(Sink& sink, const VolumeInfo&, const SampleFeed&) { built_without(sink.name()); }
-void write_vdb_labels(Sink& sink, const VolumeInfo&, const SampleFeed&) { built_without(sink.name()); }
-
-#endif
+const VdbLibrary kOpenVdb{open, write, write_labels};
 
 }  // namespace isoatlas
