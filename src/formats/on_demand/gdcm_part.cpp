@@ -4,5 +4,5 @@
 extern "C" const void* isoatlas_part();
 extern "C" const void* isoatlas_part() {
     static constexpr isoatlas::DicomDecoder kDecoder = isoatlas::decode_with_gdcm;
-    return &kDecoder;
+    return static_cast<const void*>(&kDecoder);
 }

@@ -8,8 +8,8 @@
 namespace isoatlas {
 
 bool looks_like_vdb(FirstBytes first, const std::string&) {
-    constexpr std::string_view kMagic("\x20\x42\x44\x56\0\0\0\0", 8);
-    return std::string_view(reinterpret_cast<const char*>(first.data()), first.size()).starts_with(kMagic);
+    constexpr std::string_view kFileBegin("\x20\x42\x44\x56\0\0\0\0", 8);
+    return std::string_view(reinterpret_cast<const char*>(first.data()), first.size()).starts_with(kFileBegin);
 }
 
 std::unique_ptr<VolumeReader> open_vdb(const std::string& path, const OpenOptions& options) {

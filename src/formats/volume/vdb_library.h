@@ -1,5 +1,5 @@
 // Code that uses the library OpenVDB. A program links it (vdb_library.cpp), or loads it when it first meets such a file
-// (formats/on_demand): the loader takes 40 ms for OpenVDB, more than most commands take in all.
+// (formats/on_demand): the loader of the system takes 40 ms for OpenVDB at every start.
 #pragma once
 
 #include <memory>
