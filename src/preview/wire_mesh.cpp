@@ -121,6 +121,18 @@ void put_in_order(std::vector<unsigned>& corners, std::vector<WirePoint>& points
     points.swap(ordered);
 }
 
+/// Points near each other one after another: they compress well.
+void put_in_spatial_order(std::vector<WirePoint>& points) {
+    std::vector<float> positions;
+    positions.reserve(3 * points.size());
+    for (const WirePoint& point : points) positions.insert(positions.end(), point.position.begin(), point.position.end());
+    std::vector<unsigned> places(points.size());
+    meshopt_spatialSortRemap(places.data(), positions.data(), points.size(), 3 * sizeof(float));
+    std::vector<WirePoint> ordered(points.size());
+    for (std::size_t i = 0; i < points.size(); ++i) ordered[places[i]] = points[i];
+    points.swap(ordered);
+}
+
 /// Returns how many triangles have no area.
 std::size_t part(std::vector<WirePoint>& points, const std::vector<unsigned>& corners) {
     std::vector<LatticePlace> places(points.size());
@@ -198,8 +210,10 @@ WireMesh wire_mesh(const Surface& surface, const WireOptions& options, const Con
 WireMesh wire_points(const PointCloud& cloud, double step, const Context& context) {
     check(cloud.points.size(), 0);
     Header header = header_of(cloud.points, step);
+    std::vector<WirePoint> points = quantised(cloud.points, cloud.normals, header, context.threads);
+    put_in_spatial_order(points);
     WireMesh mesh;
-    write(header, quantised(cloud.points, cloud.normals, header, context.threads), {}, context, mesh);
+    write(header, points, {}, context, mesh);
     return mesh;
 }
 

@@ -41,7 +41,7 @@ struct WireMesh {
 /// Cost: about 300 ns a triangle, 100 ns without strips; 60 bytes of memory.
 [[nodiscard]] WireMesh wire_mesh(const Surface& surface, const WireOptions& options, const Context& context = {});
 
-/// Points alone, without triangles, in their order. Throws Error{resource} for more than 2^31.
+/// Points alone, without triangles. Throws Error{resource} for more than 2^31. Cost: about 100 ns a point.
 [[nodiscard]] WireMesh wire_points(const PointCloud& cloud, double step, const Context& context = {});
 
 }  // namespace isoatlas

@@ -29,6 +29,7 @@ constexpr std::int64_t kTriangleBytes = 128;      ///< of a triangle while a res
 constexpr std::int64_t kMaxPointDivisions = 8;
 constexpr int kFrontLevel = 4;                 ///< blocks of a front are at most 16 cells wide
 constexpr double kStepsOfVoxel = 64;           ///< steps of positions per voxel
+constexpr double kStepsOfSpacing = 16;         ///< of points, which are drawn wider than they are apart
 constexpr std::int64_t kTimesOfFront = 16;     ///< a front seldom has fewer triangles than the exact surface by more than that
 constexpr std::int64_t kPointsOfTriangle = 2;  ///< a point takes less memory and bytes than a triangle, and more pixels
 
@@ -156,7 +157,7 @@ WireMesh Service::unprepared(const Atlas& atlas, double tau, const SurfaceOption
 
 WireMesh Service::wire_sample(const Surface& surface, std::int64_t triangles, const Context& context) const {
     const SurfaceSample sample = sample_surface(surface, kPointsOfTriangle * triangles);
-    WireMesh mesh = wire_points(sample.cloud, step(), context);
+    WireMesh mesh = wire_points(sample.cloud, std::max(step(), sample.spacing / kStepsOfSpacing), context);
     mesh.coarse = true;
     mesh.spacing = sample.spacing;
     return mesh;
