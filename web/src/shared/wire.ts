@@ -15,13 +15,13 @@ export interface Mesh {
   /** simplified: it has fewer triangles than the surface */
   coarse: boolean;
   /** of a level of detail: its topology is exact, and it is at most so many voxels from the surface */
-  within?: number;
+  within?: number | undefined;
   /** of a level that is fine where it is near to the eye: no part is seen farther than so many pixels from the surface */
-  pixels?: number;
+  pixels?: number | undefined;
   /** squares of points: not closed where it is cut */
   isOpen: boolean;
   /** of points of a surface without its triangles: about how far they are apart */
-  spacing?: number;
+  spacing?: number | undefined;
   /** encoded size, before compression by HTTP */
   bytes: number;
 }

@@ -219,13 +219,8 @@ export class Api {
     try {
       const response = await this.request(`/api/surface?${query}`, channel);
       const mesh = await decodeMesh(await response.arrayBuffer(), response.headers.get("X-Coarse") === "1");
-      const [within, pixels, spacing] = ["X-Distance", "X-Pixels", "X-Spacing"].map((name) => response.headers.get(name)) as (string | null)[];
-      return {
-        ...mesh,
-        ...(within && { within: Number(within) }),
-        ...(pixels && { pixels: Number(pixels) }),
-        ...(spacing && { spacing: Number(spacing) }),
-      };
+      const number = (name: string): number | undefined => (response.headers.has(name) ? Number(response.headers.get(name)) : undefined);
+      return { ...mesh, within: number("X-Distance"), pixels: number("X-Pixels"), spacing: number("X-Spacing") };
     } finally {
       --this.surfaces;
     }

@@ -1,6 +1,5 @@
 // How many triangles surfaces may have while an isovalue is dragged: as many as arrive in time and are drawn in time, which without a
-// graphics card are few. A surface that has the topology of the exact one and few enough triangles is not always there: then points of it are
-// drawn.
+// graphics card are few. Where no surface with the topology of the exact one has few enough, points of it are drawn.
 
 /** the most triangles, in the fewest ones */
 const MOST = 32;

@@ -270,7 +270,8 @@ export class Viewport {
     for (const body of [...this.bodies.values()].sort((a, b) => Number(a.userData.tau) - Number(b.userData.tau))) {
       body.material.clippingPlanes = this.plane ? [this.plane] : [];
       body.renderOrder = this.plane ? 100 : 0;
-      if (this.plane && body.visible && body instanceof three.Mesh && body.userData.isOpen !== true) this.caps.push(cap(body, this.plane, order++));
+      const isCapped = body.visible && body instanceof three.Mesh && body.userData.isOpen !== true;
+      if (this.plane && isCapped) this.caps.push(cap(body, this.plane, order++));
     }
     for (const group of this.caps) this.scene.add(group);
     for (const listener of this.changeListeners) listener();
