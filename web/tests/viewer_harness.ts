@@ -5,7 +5,7 @@ import { execFileSync, spawn, type ChildProcess } from "node:child_process";
 import { existsSync, mkdtempSync, rmSync, symlinkSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { basename, join } from "node:path";
-import { chromium, type Browser, type BrowserContextOptions, type Locator, type Page as Tab } from "playwright-core";
+import { chromium, type Browser, type BrowserContextOptions, type Frame, type Locator, type Page as Tab } from "playwright-core";
 
 globalThis.crypto ??= webcrypto as Crypto; // Debian's Node 18 keeps it to itself
 
@@ -181,4 +181,27 @@ export function meshes(tab: Tab): AskedMesh[] {
     });
   });
   return list;
+}
+
+export interface Picture {
+  width: number;
+  height: number;
+  /** red, green, blue, alpha */
+  data: Uint8Array;
+}
+
+/** What the viewport shows. */
+export async function pictureOf(frame: Frame | Tab): Promise<Picture> {
+  const { width, height, text } = await frame.evaluate(() => {
+    const canvas = document.querySelector<HTMLCanvasElement>(".viewport canvas")!;
+    const copy = document.createElement("canvas");
+    [copy.width, copy.height] = [canvas.width, canvas.height];
+    const pen = copy.getContext("2d")!;
+    pen.drawImage(canvas, 0, 0);
+    const bytes = pen.getImageData(0, 0, copy.width, copy.height).data;
+    let binary = "";
+    for (let i = 0; i < bytes.length; i += 32_768) binary += String.fromCharCode(...bytes.subarray(i, i + 32_768));
+    return { width: copy.width, height: copy.height, text: btoa(binary) };
+  });
+  return { width, height, data: Uint8Array.from(Buffer.from(text, "base64")) };
 }

@@ -8,20 +8,13 @@ import { join } from "node:path";
 import type { Frame, Page as Tab } from "playwright-core";
 import { afterAll, beforeAll, describe, expect, it } from "vitest";
 import { decodeMesh, type Mesh } from "../src/shared/wire";
-import { canServe, meshes, Served } from "./viewer_harness";
+import { canServe, meshes, pictureOf, Served, type Picture } from "./viewer_harness";
 
 const STORE = process.env.ISOATLAS_LEVELS_STORE;
 const TAU = Number(process.env.ISOATLAS_LEVELS_TAU ?? 0); // of the first object
 const VIEWS = Number(process.env.ISOATLAS_LEVELS_VIEWS ?? 8);
 const MOST = 1_000_000; // triangles that the page asks for
 const BUDGET = STORE ? MOST : 60_000; // what it then gets
-
-interface Picture {
-  width: number;
-  height: number;
-  /** red, green, blue, alpha */
-  data: Uint8Array;
-}
 
 /** Uniform numbers below 1, the same each time. */
 function randoms(seed: number): () => number {
@@ -30,21 +23,6 @@ function randoms(seed: number): () => number {
     state = (Math.imul(state, 1_664_525) + 1_013_904_223) >>> 0;
     return state / 2 ** 32;
   };
-}
-
-async function pictureOf(frame: Frame): Promise<Picture> {
-  const { width, height, text } = await frame.evaluate(() => {
-    const canvas = document.querySelector<HTMLCanvasElement>(".viewport canvas")!;
-    const copy = document.createElement("canvas");
-    [copy.width, copy.height] = [canvas.width, canvas.height];
-    const pen = copy.getContext("2d")!;
-    pen.drawImage(canvas, 0, 0);
-    const bytes = pen.getImageData(0, 0, copy.width, copy.height).data;
-    let binary = "";
-    for (let i = 0; i < bytes.length; i += 32_768) binary += String.fromCharCode(...bytes.subarray(i, i + 32_768));
-    return { width: copy.width, height: copy.height, text: btoa(binary) };
-  });
-  return { width, height, data: Uint8Array.from(Buffer.from(text, "base64")) };
 }
 
 /** Pixels of `one` without a pixel of `other` within so many pixels. */

@@ -3,7 +3,7 @@ import { readFileSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 import type { Page as Tab } from "playwright-core";
 import { afterAll, beforeAll, describe, expect, it } from "vitest";
-import { canServe, meshes, Served, stableBox } from "./viewer_harness";
+import { canServe, meshes, pictureOf, Served, stableBox } from "./viewer_harness";
 
 interface Listed {
   id: number;
@@ -201,16 +201,9 @@ describe.skipIf(!canServe)("the scene", () => {
   it("draws points while a surface has too many triangles", async () => {
     const { tab } = await served.open(scene(1));
     await settled(tab);
-    const drawn = (): Promise<number> =>
-      tab.evaluate(() => {
-        const canvas = document.querySelector<HTMLCanvasElement>(".viewport canvas")!;
-        const copy = document.createElement("canvas");
-        [copy.width, copy.height] = [canvas.width, canvas.height];
-        const pen = copy.getContext("2d")!;
-        pen.drawImage(canvas, 0, 0);
-        const { data } = pen.getImageData(0, 0, copy.width, copy.height);
-        return data.filter((value, i) => i % 4 === 3 && value > 128).length;
-      });
+    const drawn = async (): Promise<number> => (await pictureOf(tab)).data.filter((value, i) => i % 4 === 3 && value > 128).length;
+    await expect.poll(drawn).toBeGreaterThan(0); // the frame after the words
+    await tab.evaluate(() => new Promise((resolve) => requestAnimationFrame(() => requestAnimationFrame(resolve))));
     const whole = await drawn();
     await tab.route("**/api/surface*", (route) => route.continue({ url: route.request().url().replace(/max=\d+/, "max=2000") }));
     const slider = tab.getByRole("slider", { name: "isovalue, on the histogram" });
