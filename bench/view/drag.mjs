@@ -78,4 +78,5 @@ const [median, most] = [0.5, 0.9].map((part) => Math.round(share(came.times, par
 console.log(`${store}, ${whole}`);
 console.log(`turned: ${rate(turned)}; an empty scene: ${rate(empty)}`);
 console.log(`dragged: ${rate(dragged)}; ${(came.times.length / seconds).toFixed(1)} surfaces a second, median ${median} ms, 90 % ${most}`);
-console.log(`triangles while dragged: ${share(came.triangles, 0)} to ${share(came.triangles, 1)}`);
+const drawn = came.triangles.length > 0 ? `${share(came.triangles, 0)} to ${share(came.triangles, 1)}` : "none, points alone";
+console.log(`triangles while dragged: ${drawn}`);
