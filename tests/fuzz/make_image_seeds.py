@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 """Writes the seeds of the NIfTI, VTK XML, TIFF and picture targets into tests/fuzz/corpus (the files are committed; this says how they were made)."""
 import base64
+import bz2
 import gzip
 import pathlib
 import struct
@@ -168,6 +169,7 @@ def main():
     write("nifti", "time", nifti1(dims=(4, 4, 3, 1, 2, 1, 1, 1)) + SAMPLES)
     write("nifti", "flat", nifti1(dims=(2, 6, 4, 1, 1, 1, 1, 1)) + SAMPLES)
     write("nifti", "gzip", gzip.compress(nifti1() + SAMPLES, mtime=0))
+    write("nifti", "bzip2", bz2.compress(nifti1() + SAMPLES))
     write("nifti", "two", nifti2() + SAMPLES)
     write("nifti", "two_big", nifti2(">") + SAMPLES)
     for wide in (False, True):

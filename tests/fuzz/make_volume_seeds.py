@@ -186,6 +186,8 @@ def main():
     write("mrc", "big", mrc(1, order=">", extended=160) + SAMPLES)
     write("mrc", "turned", mrc(0, axes=(3, 1, 2), angles=(90, 94.3, 90), start=(0, -21, -12)) + SAMPLES[:24])
     write("mrc", "stack", mrc(0, space_group=401, cells=(2, 3, 2), origin=(1, 2, 3)) + SAMPLES[:24])
+    write("mrc", "gzip", gzip.compress(mrc(1, extended=160) + SAMPLES, mtime=0))
+    write("mrc", "bzip2", bz2.compress(mrc(1, extended=160) + SAMPLES))
     write("mrc", "image", mrc(0, size=(6, 4, 1), space_group=0) + SAMPLES[:24])
 
     write("dicom", "explicit", b"".join(dicom()))

@@ -34,3 +34,14 @@ def test_mrcfile_reads_what_is_written(dtype, tmp_path):
         assert np.array_equal(file.data, array)
         assert np.allclose((file.voxel_size.x, file.voxel_size.y, file.voxel_size.z), (3, 2, 1), rtol=1e-6)
         assert np.allclose((file.header.origin.x, file.header.origin.y, file.header.origin.z), (10, 20, 30))
+
+
+@pytest.mark.parametrize(("compression", "name"), [("gzip", "emd_1.map.gz"), ("bzip2", "emd_1.map.bz2")])
+def test_maps_that_are_packed_as_a_whole(compression, name, tmp_path):
+    array = (np.random.default_rng(3).random((4, 5, 6)) * 100).astype("float32")
+    with mrcfile.new(tmp_path / name, compression=compression) as file:
+        file.set_data(array)
+        file.voxel_size = 2
+    atlas = isoatlas.open(tmp_path / name)
+    assert np.array_equal(atlas.volume, array)
+    assert np.allclose(atlas.info["spacing"], 2)

@@ -58,6 +58,10 @@ private:
 
 }  // namespace
 
+std::vector<std::byte> read_bunzipped_bytes(const std::string& path, std::int64_t max) {
+    return CompressedSource(path, 0, -1, std::make_unique<Bunzip>()).read_some(max);
+}
+
 std::unique_ptr<ByteSource> open_bzip2_source(const std::string& path, std::int64_t offset, std::int64_t length) {
     return std::make_unique<CompressedSource>(path, offset, length, std::make_unique<Bunzip>());
 }

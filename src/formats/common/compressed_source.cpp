@@ -71,6 +71,12 @@ std::size_t CompressedSource::read_some(std::span<std::byte> out) {
     return done;
 }
 
+std::vector<std::byte> CompressedSource::read_some(std::int64_t max) {
+    std::vector<std::byte> bytes(static_cast<std::size_t>(std::min(max, size_bound())));
+    bytes.resize(read_some(std::span(bytes)));
+    return bytes;
+}
+
 std::int64_t CompressedSource::decoded_bytes(std::int64_t max) {
     std::array<std::byte, 65536> scratch;
     while (!finished_ && position_ <= max) {

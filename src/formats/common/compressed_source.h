@@ -53,6 +53,8 @@ public:
 
     /// As read(), up to the end of the stream. Returns the number of bytes.
     std::size_t read_some(std::span<std::byte> out);
+    /// The next bytes: max of them, or all when there are fewer.
+    [[nodiscard]] std::vector<std::byte> read_some(std::int64_t max);
     /// Decodes to the end of the stream and its checksum, or to `max` + 1 bytes. Returns the number of bytes.
     [[nodiscard]] std::int64_t decoded_bytes(std::int64_t max);
 

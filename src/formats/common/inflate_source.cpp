@@ -1,8 +1,6 @@
 // gzip and zlib streams.
 #include <zlib.h>
 
-#include <algorithm>
-
 #include "formats/common/compressed_source.h"
 
 namespace isoatlas {
@@ -61,11 +59,6 @@ std::int64_t inflated_bytes(const std::string& path, std::int64_t offset, std::i
     return inflate_source(path, offset, length).decoded_bytes(max);
 }
 
-std::vector<std::byte> read_inflated_bytes(const std::string& path, std::int64_t max) {
-    CompressedSource source = inflate_source(path, 0, -1);
-    std::vector<std::byte> bytes(static_cast<std::size_t>(std::min(max, source.size_bound())));
-    bytes.resize(source.read_some(bytes));
-    return bytes;
-}
+std::vector<std::byte> read_inflated_bytes(const std::string& path, std::int64_t max) { return inflate_source(path, 0, -1).read_some(max); }
 
 }  // namespace isoatlas

@@ -1,4 +1,5 @@
-// MRC and CCP4 maps: .mrc .map .ccp4 .rec .st .ali .mrcs. Modes 0, 1, 2, 6 and 12; the extended header is skipped.
+// MRC and CCP4 maps: .mrc .map .ccp4 .rec .st .ali .mrcs. Modes 0, 1, 2, 6 and 12; the extended header is skipped. A file may
+// be packed as a whole (.map.gz, as archives of maps have them).
 //
 // The samples stay in the order of the file. Columns, rows and sections that run along other axes than X, Y and Z, and unit cells whose
 // sides are not perpendicular, are in the directions of the volume's axes.
@@ -9,7 +10,7 @@
 #include <string>
 #include <utility>
 
-#include "formats/common/byte_source.h"
+#include "formats/common/packed_file.h"
 #include "formats/common/text.h"
 #include "formats/volume/bad_header.h"
 #include "formats/volume/formats.h"
@@ -23,12 +24,13 @@ namespace {
 constexpr int kHalfMode = 12;
 
 bool has_name_of_maps(const std::string& path) {
+    const std::string_view name = unpacked_name(path);
     constexpr std::array<std::string_view, 7> kMapNames{".mrc", ".map", ".ccp4", ".rec", ".st", ".ali", ".mrcs"};
-    return std::any_of(kMapNames.begin(), kMapNames.end(), [&](std::string_view end) { return ends_with_ignoring_case(path, end); });
+    return std::any_of(kMapNames.begin(), kMapNames.end(), [&](std::string_view end) { return ends_with_ignoring_case(name, end); });
 }
 
 MrcHeader read_mrc_header(const std::string& path) {
-    const std::vector<std::byte> bytes = read_header_bytes(path, kMrcHeaderBytes);
+    const std::vector<std::byte> bytes = read_unpacked_bytes(path, kMrcHeaderBytes);
     if (static_cast<std::int64_t>(bytes.size()) < kMrcHeaderBytes) {
         bad_header(path, "offset " + std::to_string(bytes.size()), "the file ends early", "1024 bytes of header");
     }
@@ -140,7 +142,7 @@ std::unique_ptr<VolumeReader> open_mrc(const std::string& path, const OpenOption
     VolumeInfo info;
     info.path = path;
     info.format = "MRC";
-    info.encoding = "raw";
+    info.encoding = name_of(packing_of(path));
     info.type = type_of_mode(path, header);
     info.description = header.label;
     const auto [volumes, sections] = volumes_of(path, header, info.notes);
@@ -149,7 +151,7 @@ std::unique_ptr<VolumeReader> open_mrc(const std::string& path, const OpenOption
     info.geometry = geometry_of(path, header, info.notes);
     static_cast<void>(sample_bytes(path, info.extent, info.type, volumes));  // rejects sizes that do not fit
     const TimeStep step = choose_time_step(path, options, volumes);
-    std::unique_ptr<ByteSource> source = open_file_source(path, kMrcHeaderBytes + header.extended_bytes);
+    std::unique_ptr<ByteSource> source = open_unpacked(path, kMrcHeaderBytes + header.extended_bytes);
     info.file_bytes = file_size(path);
     if (header.mode == kHalfMode) {
         info.notes.emplace_back("samples of 16 bits in floating point are read as float32");

@@ -1,12 +1,12 @@
-// NIfTI-1 and NIfTI-2: .nii, .nii.gz and pairs .hdr + .img (each may be compressed). ANALYZE 7.5, their predecessor: pairs.
+// NIfTI-1 and NIfTI-2: .nii, .nii.gz and pairs .hdr + .img (each may be packed). ANALYZE 7.5, their predecessor: pairs.
 #include "formats/volume/nifti_header.h"
 
 #include <algorithm>
 #include <cmath>
 #include <optional>
 
-#include "formats/common/byte_source.h"
 #include "formats/common/own_folder.h"
+#include "formats/common/packed_file.h"
 #include "formats/common/text.h"
 #include "formats/volume/axes.h"
 #include "formats/volume/bad_header.h"
@@ -24,16 +24,10 @@ constexpr double kLargestOffset = 9.0e15;  ///< below 2^53: exact
     throw Error(ErrorKind::unsupported, {.file = path, .where = "header", .what = what, .expected = expected, .next = next});
 }
 
-bool is_gzip(const std::string& path) { return starts_like_gzip(read_header_bytes(path, 2)); }
-
-std::vector<std::byte> header_bytes(const std::string& path) {
-    return is_gzip(path) ? read_inflated_bytes(path, kNifti2HeaderBytes) : read_header_bytes(path, kNifti2HeaderBytes);
-}
-
 /// "brain.img.gz" -> "brain.hdr.gz": the other file of a pair, with the case of the letters kept. nullopt: not such a name.
 std::optional<std::string> partner(const std::string& path, std::string_view from, std::string_view to) {
-    const std::string end = ends_with_ignoring_case(path, ".gz") ? path.substr(path.size() - 3) : "";
-    std::string stem = path.substr(0, path.size() - end.size());
+    std::string stem(unpacked_name(path));
+    const std::string end = path.substr(stem.size());
     if (!ends_with_ignoring_case(stem, from)) return std::nullopt;
     const bool upper = stem.back() < 'a';
     stem.resize(stem.size() - to.size());
@@ -50,11 +44,14 @@ bool is_readable(const std::string& path) {
     }
 }
 
-/// The partner with or without .gz, whichever exists; the first choice when none does (opening it gives the error).
+/// The partner, packed like this file, not at all or otherwise, whichever exists; the first choice when none does (opening it gives the
+/// error).
 std::string find_partner(const std::string& path, std::string_view from, std::string_view to) {
-    const std::string first = partner(path, from, to).value_or(path);
-    const std::string second = ends_with_ignoring_case(first, ".gz") ? first.substr(0, first.size() - 3) : first + ".gz";
-    return !is_readable(first) && is_readable(second) ? second : first;
+    const std::string first = partner(path, from, to).value_or(path), stem(unpacked_name(first));
+    for (const std::string& name : {first, stem, stem + ".gz", stem + ".bz2"}) {
+        if (is_readable(name)) return name;
+    }
+    return first;
 }
 
 struct NiftiType {
@@ -143,7 +140,7 @@ std::int64_t data_offset(const std::string& path, const NiftiHeader& header, std
 }
 
 NiftiHeader read_nifti_header(const std::string& path) {
-    const std::vector<std::byte> bytes = header_bytes(path);
+    const std::vector<std::byte> bytes = read_unpacked_bytes(path, kNifti2HeaderBytes);
     const NiftiKind kind = nifti_kind(bytes);
     const std::int64_t size = kind == NiftiKind::nifti2 ? kNifti2HeaderBytes : kNifti1HeaderBytes;
     if (static_cast<std::int64_t>(bytes.size()) < size) {
@@ -170,15 +167,10 @@ void complete_analyze(const NiftiHeader& header, VolumeInfo& info) {
     if (!info.calibration.is_linear_identity()) info.notes.emplace_back("the scale factor of SPM was applied");
 }
 
-std::unique_ptr<ByteSource> open_samples(const std::string& path, std::int64_t offset) {
-    if (!is_gzip(path)) return open_file_source(path, offset);
-    return skip_bytes(open_inflate_source(path), offset);
-}
-
 /// The header beside an .img file, when there is one.
 bool has_nifti_header(const std::string& image) {
     try {
-        const NiftiKind kind = nifti_kind(header_bytes(find_partner(image, ".img", ".hdr")));
+        const NiftiKind kind = nifti_kind(read_unpacked_bytes(find_partner(image, ".img", ".hdr"), kNifti2HeaderBytes));
         return kind != NiftiKind::no;
     } catch (const Error&) {
         return false;
@@ -190,7 +182,7 @@ bool has_nifti_header(const std::string& image) {
 bool looks_like_nifti(FirstBytes first, const std::string& path) {
     const NiftiKind kind = nifti_kind(first);
     if (kind == NiftiKind::nifti1 || kind == NiftiKind::nifti2) return true;
-    if (ends_with_ignoring_case(path, ".nii") || ends_with_ignoring_case(path, ".nii.gz")) return true;
+    if (ends_with_ignoring_case(unpacked_name(path), ".nii")) return true;
     const bool is_header = partner(path, ".hdr", ".img").has_value();
     if (kind == NiftiKind::analyze) return is_header;
     return partner(path, ".img", ".hdr").has_value() && has_nifti_header(path);
@@ -211,7 +203,7 @@ std::unique_ptr<VolumeReader> open_nifti(const std::string& path, const OpenOpti
     VolumeInfo info;
     info.path = path;
     info.format = header.is_analyze ? "ANALYZE 7.5" : header.version == 1 ? "NIfTI-1" : "NIfTI-2";
-    info.encoding = is_gzip(data_path) ? "gzip" : "raw";
+    info.encoding = name_of(packing_of(data_path));
     if (data_path != path) info.data_file = data_path;
     const NiftiType type = value_type(header_path, header);
     info.type = type.type;
@@ -225,7 +217,7 @@ std::unique_ptr<VolumeReader> open_nifti(const std::string& path, const OpenOpti
     info.description = header.description;
     info.file_bytes = file_size(header_path) + (data_path == header_path ? 0 : file_size(data_path));
     const std::int64_t offset = data_offset(header_path, header, info.notes);
-    return make_sample_reader(std::move(info), open_samples(data_path, offset), options, step, type.wide);
+    return make_sample_reader(std::move(info), open_unpacked(data_path, offset), options, step, type.wide);
 }
 
 }  // namespace isoatlas

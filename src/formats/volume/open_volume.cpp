@@ -5,8 +5,8 @@
 #include <filesystem>
 #include <utility>
 
-#include "formats/common/byte_source.h"
 #include "formats/common/file_access.h"
+#include "formats/common/packed_file.h"
 #include "formats/common/text.h"
 #include "formats/volume/choose.h"
 #include "formats/volume/formats.h"
@@ -22,7 +22,7 @@ namespace {
 constexpr std::int64_t kFirstBytes = 4096;
 constexpr const char* kSupported =
     "NRRD (.nrrd .nhdr), MetaImage (.mha .mhd), NIfTI-1 (.nii .nii.gz), NumPy (.npy), VTK image (.vti .vtk), TIFF (.tif), PNG, JPEG, BMP, "
-    "MRC (.mrc .map), "
+    "MRC (.mrc .map .map.gz), "
     "DICOM, HDF5 (.h5 .ims .vtkhdf), NetCDF (.nc), Amira (.am), OpenVDB (.vdb), BOV (.bov), OME-Zarr and Zarr (a folder, or .zip), a "
     "folder of slices, RAW "
     "(also by its .dat or .xml)";
@@ -32,12 +32,13 @@ struct ReadFormat {
     const char* extensions;  ///< separated by blanks
     bool (*looks_like)(FirstBytes, const std::string&);
     std::unique_ptr<VolumeReader> (*open)(const std::string&, const OpenOptions&);
+    bool may_be_packed = false;  ///< the whole file, by gzip or bzip2
 };
 
 constexpr std::array<ReadFormat, 19> kReadFormats = {
     {{"DICOM", ".dcm .dicom .ima", looks_like_dicom, open_dicom},  // its preamble may be a TIFF file
      {"NRRD", ".nrrd .nhdr", looks_like_nrrd, open_nrrd},
-     {"NIfTI", ".nii .nii.gz", looks_like_nifti, open_nifti},
+     {"NIfTI", ".nii", looks_like_nifti, open_nifti, true},
      {"NumPy", ".npy", looks_like_npy, open_npy},
      {"VTK image", ".vti", looks_like_vti, open_vti},
      {"VTK legacy", ".vtk", looks_like_vtk_legacy, open_vtk_legacy},
@@ -45,7 +46,7 @@ constexpr std::array<ReadFormat, 19> kReadFormats = {
      {"PNG", ".png", looks_like_png, open_picture},
      {"JPEG", ".jpg .jpeg", looks_like_jpeg, open_picture},
      {"BMP", ".bmp .dib", looks_like_bmp, open_picture},
-     {"MRC", ".mrc .map .ccp4 .rec .st .ali .mrcs", looks_like_mrc, open_mrc},
+     {"MRC", ".mrc .map .ccp4 .rec .st .ali .mrcs", looks_like_mrc, open_mrc, true},
      {"Amira", ".am .amiramesh", looks_like_amira, open_amira},
      {"OpenVDB", ".vdb", looks_like_vdb, open_vdb},
      {"Zarr", ".zip .ozx", looks_like_zip, open_zarr_zip},
@@ -65,7 +66,8 @@ constexpr std::array<std::pair<std::string_view, const char*>, 5> kForeign = {
 
 bool has_extension(const std::string& path, const ReadFormat& format) {
     const std::vector<std::string_view> extensions = split_words(format.extensions);
-    return std::any_of(extensions.begin(), extensions.end(), [&](std::string_view end) { return ends_with_ignoring_case(path, end); });
+    const std::string_view name = format.may_be_packed ? unpacked_name(path) : path;
+    return std::any_of(extensions.begin(), extensions.end(), [&](std::string_view end) { return ends_with_ignoring_case(name, end); });
 }
 
 /// Suggests a file of the same folder with a similar name.
@@ -123,6 +125,26 @@ bool has_extension(const std::string& path, const ReadFormat& format) {
                 {.file = path, .what = "unknown file format", .expected = kSupported, .next = next, .reason = reason, .value = nearest});
 }
 
+/// Throws Error{unsupported} when a file that begins with these bytes is packed in a way that is not read.
+void refuse_packed(const std::string& path, FirstBytes first) {
+    struct Archive {
+        std::size_t at;
+        std::string_view mark;
+        const char *name, *next;
+    };
+    static constexpr std::array<Archive, 5> kArchives{{{0, "\3757zXZ", "xz", "unpack it with unxz"},
+                                                       {0, "\x28\xb5\x2f\xfd", "zstd", "unpack it with unzstd"},
+                                                       {0, "7z\xbc\xaf\x27\x1c", "7-Zip", "unpack it with 7z x"},
+                                                       {0, "Rar!\x1a\x07", "RAR", "unpack it with unrar x"},
+                                                       {257, "ustar", "tar", "unpack it with tar -xf, and give the file or folder in it"}}};
+    const std::string_view text(reinterpret_cast<const char*>(first.data()), first.size());
+    for (const Archive& archive : kArchives) {
+        if (text.size() < archive.at || !text.substr(archive.at).starts_with(archive.mark)) continue;
+        throw Error(ErrorKind::unsupported,
+                    {.file = path, .what = std::string("is packed: ") + archive.name, .expected = "a volume", .next = archive.next});
+    }
+}
+
 /// Whether the name exists, also when it cannot be read: then opening it gives the error.
 bool anything_at(const std::string& path) {
     std::error_code ignored;
@@ -137,19 +159,20 @@ bool is_described_raw(const std::string& path, const OpenOptions& options) {
     return (name.dims && name.type) || find_sidecar(path).has_value();
 }
 
-/// The bytes that formats inspect; for gzip files the payload.
+/// The bytes that formats inspect: of a packed file those of what is in it.
 struct Start {
     std::vector<std::byte> bytes;
-    bool gzipped = false;
+    FilePacking packing = FilePacking::none;
 };
 
 Start first_bytes(const std::string& path, bool may_be_raw) {
     Start start{.bytes = read_header_bytes(path, kFirstBytes)};
-    if (!starts_like_gzip(start.bytes)) return start;
+    const FilePacking packing = packing_of(start.bytes);
+    if (packing == FilePacking::none) return start;
     try {
-        start = {.bytes = read_inflated_bytes(path, kFirstBytes), .gzipped = true};
+        start = {.bytes = read_unpacked_bytes(path, kFirstBytes), .packing = packing};
     } catch (const Error&) {
-        if (!may_be_raw) throw;  // else samples that happen to begin like gzip
+        if (!may_be_raw) throw;  // else samples that happen to begin like a packed file
     }
     return start;
 }
@@ -163,14 +186,16 @@ std::unique_ptr<VolumeReader> open_file_volume(const std::string& path, const Op
     }
     for (const ReadFormat& format : kReadFormats) {
         if (!format.looks_like(start.bytes, path)) continue;
-        if (start.gzipped && format.open != open_nifti) {
-            throw Error(ErrorKind::unsupported, {.file = path,
-                                                 .what = std::string("a whole ") + format.name + " file in gzip is not supported",
-                                                 .next = "unpack it with gunzip"});
+        if (start.packing != FilePacking::none && !format.may_be_packed) {
+            throw Error(ErrorKind::unsupported,
+                        {.file = path,
+                         .what = std::string("a whole ") + format.name + " file in " + name_of(start.packing) + " is not supported",
+                         .next = start.packing == FilePacking::gzip ? "unpack it with gunzip" : "unpack it with bunzip2"});
         }
         return format.open(path, options);
     }
     if (described) return open_raw(path, options);
+    refuse_packed(path, start.bytes);
     unknown_format(path);
 }
 

@@ -10,6 +10,7 @@
 #include "formats/volume/half_source.h"
 #include "isoatlas/output.h"
 #include "isoatlas/phantom.h"
+#include "unit/formats/volume/bzip2_stream.h"
 #include "unit/formats/volume/hostile_files.h"
 
 namespace isoatlas {
@@ -191,6 +192,33 @@ TEST(Mrc, Damage) {
     test::expect_bit_flips_harmless("v.mrc", MrcFile({2, 3, 4}, 12).bytes(test::telling_bytes(48)), 0, 240, 2);
 }
 
+TEST(Mrc, WholeFilesMayBePacked) {
+    const test::TestFolder folder;
+    const std::string samples = test::telling_bytes(48), content = MrcFile({2, 3, 4}, 1).bytes(samples, false, std::string(96, 'x'));
+    const std::string extended = MrcFile({2, 3, 4}, 1).put(23, std::int32_t{96}).bytes(samples, false, std::string(96, 'x'));
+    const std::pair<const char*, std::string> files[] = {
+        {"v.map.gz", test::gzip(extended)}, {"v.bin", test::gzip(extended)}, {"v.mrc.bz2", test::bzip2(extended)}};
+    for (const auto& [name, bytes] : files) {
+        SCOPED_TRACE(name);
+        const auto reader = open_volume(folder.write(name, bytes));
+        EXPECT_EQ(reader->info().format, "MRC");
+        EXPECT_EQ(reader->info().encoding, std::string_view(name).ends_with("bz2") ? "bzip2" : "gzip");
+        EXPECT_FALSE(reader->info().slab_readable);
+        EXPECT_EQ(reader->info().file_bytes, static_cast<std::int64_t>(bytes.size()));
+        for (std::int64_t slices = 4; slices >= 1; --slices) EXPECT_EQ(test::read_all(*reader, slices), samples);
+    }
+    const std::string old = MrcFile({2, 3, 4}, 1).mark(208, std::string(4, '\0')).bytes(samples);  // known by its name alone
+    EXPECT_EQ(open_volume(folder.write("old.ccp4.gz", test::gzip(old)))->info().format, "MRC");
+    expect_helpful(failure_of_loading(folder.write("v.map.bz2", test::bzip2(content))), ErrorKind::input, "after the samples");
+    expect_helpful(failure_of_loading(folder.write("v.map.gz", test::gzip(extended.substr(0, extended.size() - 1)))), ErrorKind::input,
+                   "end early");
+    expect_helpful(failure_of_loading(folder.write("v.map.gz", test::gzip(extended.substr(0, 500)))), ErrorKind::input, "named like MRC");
+    for (const std::string& packed : {test::gzip(extended), test::bzip2(extended)}) {
+        test::expect_truncations_refused("v.map.packed", packed);
+        test::expect_bit_flips_harmless("v.map.packed", packed, 0, std::string::npos, std::int64_t{1} << 21);
+    }
+}
+
 TEST(Mrc, WhatIsWrittenComesBack) {
     const test::TestFolder folder;
     for (const ValueType type : {ValueType::i8, ValueType::i16, ValueType::u16, ValueType::f32, ValueType::u8}) {
@@ -238,6 +266,7 @@ TEST(Mrc, TheMapOfTheDataBank) {
     const std::filesystem::path data = std::filesystem::path(ISOATLAS_SOURCE_DIR).parent_path() / "shared" / "data";
     if (!std::filesystem::exists(data / "formats" / "EMD-3001.map")) GTEST_SKIP() << "no shared data beside the checkout";
     const Volume map = load_volume((data / "formats" / "EMD-3001.map").string());
+    EXPECT_EQ(test::text_of_bytes(map), test::text_of_bytes(load_volume((data / "formats" / "EMD-3001.map.bz2").string())));
     const Volume converted = load_volume((data / "emd3001" / "emd3001.nrrd").string());
     EXPECT_EQ(map.info.extent, converted.info.extent);
     EXPECT_EQ(test::text_of_bytes(map), test::text_of_bytes(converted));

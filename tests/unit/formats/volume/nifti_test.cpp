@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "oracle/sha256.h"
+#include "unit/formats/volume/bzip2_stream.h"
 #include "unit/formats/volume/hostile_files.h"
 #include "unit/formats/volume/volume_files.h"
 
@@ -225,7 +226,9 @@ TEST(Nifti, Pairs) {
     folder.write("c.img.gz", gzip(samples));
     folder.write("d.hdr", header);
     folder.write("d.img.gz", gzip(samples));
-    for (const char* name : {"a.hdr", "a.img", "B.HDR", "B.IMG", "c.hdr.gz", "c.img.gz", "d.hdr", "d.img.gz"}) {
+    folder.write("e.hdr.gz", gzip(header));
+    folder.write("e.img.bz2", test::bzip2(samples));
+    for (const char* name : {"a.hdr", "a.img", "B.HDR", "B.IMG", "c.hdr.gz", "c.img.gz", "d.hdr", "d.img.gz", "e.hdr.gz", "e.img.bz2"}) {
         SCOPED_TRACE(name);
         EXPECT_EQ(read_all(*open_volume(folder / name), 2), samples);
     }

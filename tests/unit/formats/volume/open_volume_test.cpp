@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include "isoatlas/dataset_path.h"
+#include "unit/formats/volume/bzip2_stream.h"
 #include "unit/formats/volume/volume_files.h"
 
 namespace isoatlas {
@@ -42,6 +43,14 @@ TEST(OpenVolume, PathsThatAreNoVolume) {
     expect_helpful(failure_of_loading(folder.write("scan.nrrrd", "something")), ErrorKind::unsupported, "did you mean .nrrd?");
     expect_helpful(failure_of_loading(folder.write("scan.xyz", "something")), ErrorKind::unsupported, "MetaImage (.mha .mhd)");
     expect_helpful(failure_of_loading(folder.write("v.nrrd.gz", test::gzip(kNrrd))), ErrorKind::unsupported, "gunzip");
+    expect_helpful(failure_of_loading(folder.write("v.nrrd.bz2", test::bzip2(kNrrd))), ErrorKind::unsupported, "bunzip2");
+    expect_helpful(failure_of_loading(folder.write("v.mrc.bz2", test::bzip2(kNrrd).substr(0, 20))), ErrorKind::input, "ends early");
+    const std::pair<std::string, const char*> archives[] = {
+        {"\3757zXZ" + std::string(9, '\0'), "unxz"},  {"\x28\xb5\x2f\xfd rest", "unzstd"},
+        {"7z\xbc\xaf\x27\x1c rest", "7z x"},          {"Rar!\x1a\x07 rest", "unrar x"},
+        {std::string(257, 'n') + "ustar", "tar -xf"}, {test::gzip(std::string(257, 'n') + "ustar"), "tar -xf"}};
+    for (const auto& [bytes, next] : archives)
+        expect_helpful(failure_of_loading(folder.write("v.map", bytes)), ErrorKind::unsupported, next);
     expect_helpful(failure_of_loading(folder.write("v.bin.gz", test::gzip("abc").substr(0, 12))), ErrorKind::input, "ends early");
     ASSERT_EQ(mkfifo((folder / "pipe.nrrd").c_str(), 0600), 0);
     expect_helpful(failure_of_loading(folder / "pipe.nrrd"), ErrorKind::input, "not a regular file");
