@@ -47,7 +47,8 @@ bool is_readable(const std::string& path) {
 /// The partner, packed like this file, not at all or otherwise, whichever exists; the first choice when none does (opening it gives the
 /// error).
 std::string find_partner(const std::string& path, std::string_view from, std::string_view to) {
-    const std::string first = partner(path, from, to).value_or(path), stem(unpacked_name(first));
+    std::string first = partner(path, from, to).value_or(path);
+    const std::string stem(unpacked_name(first));
     for (const std::string& name : {first, stem, stem + ".gz", stem + ".bz2"}) {
         if (is_readable(name)) return name;
     }
