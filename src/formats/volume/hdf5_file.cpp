@@ -139,7 +139,7 @@ bool Hdf5File::Data::find(hid_t in, const std::string& object, Hdf5Info& info) {
 
 std::string Hdf5File::Data::damage(const std::string& object) {
     Hdf5Info info{};
-    if (!find(object, info)) return {};
+    if (!find(object, info)) return "cannot be found";  // HDF5 would read attributes of what is no object
     return damage_at(info.fileno, info.addr);
 }
 

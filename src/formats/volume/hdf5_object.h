@@ -23,7 +23,7 @@ struct Hdf5File::Data {
 
     std::set<std::pair<unsigned long, haddr_t>> sound{};  ///< objects whose headers were checked, by file and address
 
-    /// What is damaged in the header of an object, so that HDF5 must not open it or its attributes; "": nothing, or it is not there.
+    /// What is damaged in the header of an object, or that there is none, so that HDF5 must not open it or its attributes; "": nothing.
     [[nodiscard]] std::string damage(const std::string& object);
     /// Follows a path, group by group, none of which may be damaged: Error{input}. false: it leads nowhere. The first group of a file was
     /// checked when that was opened (formats/volume/hdf5_driver.cpp).
