@@ -1,9 +1,13 @@
 #include "preview/sample_surface.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <vector>
 
+#include "base/big_vector.h"
+#include "base/parallel.h"
 #include "geometry/vectors.h"
 
 namespace isoatlas {
@@ -26,7 +30,8 @@ std::array<double, 3> weights_of(std::int64_t k) {
     return {1 - u - v, u, v};
 }
 
-void add_point(const Surface& surface, const TriangleCorners& corners, const std::array<double, 3>& weights, PointCloud& cloud) {
+void set_point(const Surface& surface, const TriangleCorners& corners, std::int64_t k, PointCloud& cloud) {
+    const std::array<double, 3> weights = weights_of(k);
     Vec3 point{}, normal{};
     for (std::size_t i = 0; i < 3; ++i) {
         for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -36,27 +41,51 @@ void add_point(const Surface& surface, const TriangleCorners& corners, const std
     }
     if (!(norm(normal) > 0)) normal = normal_of(surface, corners);  // those of the corners cancel
     const double length = norm(normal);
-    cloud.points.push_back(point);
-    cloud.normals.push_back(
-        {static_cast<float>(normal[0] / length), static_cast<float>(normal[1] / length), static_cast<float>(normal[2] / length)});
+    cloud.points[k] = point;
+    cloud.normals[k] = {static_cast<float>(normal[0] / length), static_cast<float>(normal[1] / length),
+                        static_cast<float>(normal[2] / length)};
+}
+
+/// How many of the points, each in the middle of its part of the area, lie before this one.
+std::int64_t points_before(double area, double part, std::int64_t points) {
+    std::int64_t count = std::clamp(static_cast<std::int64_t>(area / part) - 1, std::int64_t{0}, points);
+    while (count < points && (static_cast<double>(count) + 0.5) * part < area) ++count;
+    return count;
 }
 
 }  // namespace
 
-SurfaceSample sample_surface(const Surface& surface, std::int64_t points) {
-    double area = 0;
-    for (const TriangleCorners& corners : surface.triangles) area += norm(normal_of(surface, corners)) / 2;
+SurfaceSample sample_surface(const Surface& surface, std::int64_t points, const Context& context) {
+    constexpr std::int64_t kTriangles = 4096;  // of a piece
+    const std::int64_t triangles = std::ssize(surface.triangles), pieces = (triangles + kTriangles - 1) / kTriangles;
+    BigVector<double> areas;
+    resize_for_overwrite(areas, static_cast<std::size_t>(triangles));
+    std::vector<double> before(static_cast<std::size_t>(pieces) + 1);  // the area before each piece
+    const auto last_of = [&](std::int64_t piece) { return std::min((piece + 1) * kTriangles, triangles); };
+    for_each_block(context.threads, pieces, [&](std::int64_t piece) {
+        double area = 0;
+        for (std::int64_t t = piece * kTriangles; t < last_of(piece); ++t)
+            area += areas[t] = norm(normal_of(surface, surface.triangles[t])) / 2;
+        before[piece + 1] = area;
+    });
+    for (std::int64_t piece = 0; piece < pieces; ++piece) before[piece + 1] += before[piece];
+
     SurfaceSample sample;
-    if (!(area > 0) || points <= 0) return sample;
-    const double part = area / static_cast<double>(points);
+    if (!(before.back() > 0) || points <= 0) return sample;
+    const double part = before.back() / static_cast<double>(points);
     sample.spacing = std::sqrt(part);
-    double before = 0;
-    std::int64_t next = 0;  // point, in the middle of its part
-    for (const TriangleCorners& corners : surface.triangles) {
-        before += norm(normal_of(surface, corners)) / 2;
-        for (; next < points && (static_cast<double>(next) + 0.5) * part < before; ++next)
-            add_point(surface, corners, weights_of(next), sample.cloud);
-    }
+    const std::int64_t count = points_before(before.back(), part, points);
+    sample.cloud.points.resize(count);
+    sample.cloud.normals.resize(count);
+    for_each_block(context.threads, pieces, [&](std::int64_t piece) {
+        double area = 0;  // the same sums as above: a piece ends where the next one begins
+        std::int64_t next = points_before(before[piece], part, points);
+        for (std::int64_t t = piece * kTriangles; t < last_of(piece); ++t) {
+            area += areas[t];
+            for (; next < count && (static_cast<double>(next) + 0.5) * part < before[piece] + area; ++next)
+                set_point(surface, surface.triangles[t], next, sample.cloud);
+        }
+    });
     return sample;
 }
 

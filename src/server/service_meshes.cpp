@@ -156,7 +156,7 @@ WireMesh Service::unprepared(const Atlas& atlas, double tau, const SurfaceOption
 }
 
 WireMesh Service::wire_sample(const Surface& surface, std::int64_t triangles, const Context& context) const {
-    const SurfaceSample sample = sample_surface(surface, kPointsOfTriangle * triangles);
+    const SurfaceSample sample = sample_surface(surface, kPointsOfTriangle * triangles, context);
     WireMesh mesh = wire_points(sample.cloud, std::max(step(), sample.spacing / kStepsOfSpacing), context);
     mesh.coarse = true;
     mesh.spacing = sample.spacing;

@@ -49,6 +49,20 @@ TEST(SurfaceSample, HasAsManyPointsInAPartAsItHasArea) {
     EXPECT_NEAR(mean[1] / 300, 2.0 / 3, 0.02);
 }
 
+TEST(SurfaceSample, IsTheSameForAnyNumberOfThreads) {
+    const Surface surface = extract(make_phantom("noise", {.size = 24}), 0.5);
+    ASSERT_GT(surface.triangles.size(), 3U * 4096);  // several pieces
+    Context one, three;
+    one.threads = 1, three.threads = 3;
+    for (const std::int64_t points : {1, 7, 5000, 200'000}) {
+        const SurfaceSample first = sample_surface(surface, points, one), second = sample_surface(surface, points, three);
+        EXPECT_NEAR(static_cast<double>(first.cloud.points.size()), static_cast<double>(points), 1);
+        EXPECT_EQ(first.cloud.points, second.cloud.points);
+        EXPECT_EQ(first.cloud.normals, second.cloud.normals);
+        for (const auto& [x, y, z] : first.cloud.normals) ASSERT_NEAR(std::hypot(x, y, z), 1, 1e-6);  // each was set
+    }
+}
+
 TEST(SurfaceSample, OfNothingIsEmpty) {
     EXPECT_TRUE(sample_surface(Surface{}, 10).cloud.points.empty());
     const Surface surface = extract(make_phantom("torus-chain", {.size = 24}), 0.5);
