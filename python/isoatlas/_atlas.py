@@ -339,7 +339,7 @@ class Atlas:
 
     def save_labels(self, path: Path, tau: Optional[float] = None, *, keep: int = ROWS, objects: Sequence[Reference] = (),
                     cavities: bool = False, progress: Progress = None, threads: int = 0) -> list[str]:
-        """Writes what :meth:`labels` returns, as ``isoatlas label``: .seg.nrrd, .nrrd, .nii, .nii.gz, .tif or .h5; returns warnings."""
+        """Writes what :meth:`labels` returns, as ``isoatlas label``: .seg.nrrd, .nrrd, .nii, .nii.gz, .tif, .mrc or .h5; returns warnings."""
         labels = self.labels(tau, keep=keep, objects=objects, cavities=cavities, progress=progress, threads=threads)
         if tau is not None:
             self._source.write_labels(os.fspath(path), labels, self._source.stored(float(tau)), cavities)

@@ -45,3 +45,19 @@ def test_maps_that_are_packed_as_a_whole(compression, name, tmp_path):
     atlas = isoatlas.open(tmp_path / name)
     assert np.array_equal(atlas.volume, array)
     assert np.allclose(atlas.info["spacing"], 2)
+
+
+def test_labels_are_a_mask_of_the_map(tmp_path):
+    array = np.random.default_rng(4).random((4, 5, 6)).astype("float32")
+    with mrcfile.new(tmp_path / "map.mrc") as file:
+        file.set_data(array)
+        file.voxel_size = 2
+        file.header.origin = (10, -20, 30)
+    atlas = isoatlas.open(tmp_path / "map.mrc")
+    atlas.save_labels(tmp_path / "mask.mrc", 0.5)
+    assert mrcfile.validate(tmp_path / "mask.mrc")
+    with mrcfile.open(tmp_path / "mask.mrc") as file:
+        assert np.array_equal(file.data, atlas.labels(0.5))
+        assert np.array_equal(file.data > 0, array >= 0.5)
+        assert float(file.voxel_size.x) == 2
+        assert float(file.header.origin.y) == -20

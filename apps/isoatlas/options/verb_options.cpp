@@ -152,7 +152,7 @@ void label_options(CLI::App& app, Arguments& arguments, Typed& typed) {
                    "Label the first N objects of the table, each at its best isovalue; with --zones: keep the first P percent")
         ->type_name("N|P%");
     add_selection(app, typed.selection, false);
-    add_output(app, arguments, ".seg.nrrd .nrrd .nii .nii.gz .tif .vdb .h5 .ome.zarr", true);
+    add_output(app, arguments, ".seg.nrrd .nrrd .nii .nii.gz .tif .mrc .vdb .h5 .ome.zarr", true);
 }
 
 void name_options(CLI::App& app, Arguments& /*arguments*/, Typed& typed) {

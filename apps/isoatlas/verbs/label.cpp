@@ -79,7 +79,7 @@ Labels label_zones(const Arguments& arguments, Source& source, Terminal& termina
 bool chooses(const Arguments& arguments) { return !arguments.objects.empty() || arguments.top > 0; }
 
 void check_label_arguments(const Arguments& arguments) {
-    check_output(arguments, {".nrrd", ".nii", ".nii.gz", ".tif", ".vdb", ".h5", ".hdf5", ".zarr"});
+    check_output(arguments, {".nrrd", ".nii", ".nii.gz", ".tif", ".mrc", ".vdb", ".h5", ".hdf5", ".zarr"});
     const auto contradict = [](const std::string& one, const std::string& other) {
         throw Error(ErrorKind::usage, {.what = one + " and " + other + " contradict each other", .next = "isoatlas label --help"});
     };

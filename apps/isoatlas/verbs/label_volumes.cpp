@@ -102,7 +102,7 @@ int run_label_page(const Arguments& arguments, Terminal& terminal) {
 }
 
 int label_label_objects(const Arguments& arguments, Terminal& terminal) {
-    check_output(arguments, {".nrrd", ".nii", ".nii.gz", ".tif", ".h5", ".hdf5"});
+    check_output(arguments, {".nrrd", ".nii", ".nii.gz", ".tif", ".mrc", ".h5", ".hdf5"});
     Source source(arguments, terminal);
     LabelDirectory directory(arguments, source);
     const KeptLabels kept = kept_labels(source.volume(), directory, directory.find(arguments.objects, arguments.top));

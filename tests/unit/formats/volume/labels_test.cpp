@@ -127,6 +127,20 @@ TEST(Labels, UnitsOfNifti) {
     }
 }
 
+TEST(Labels, MrcHasNoUnsignedBytesAndNoWideIntegers) {
+    const TestFolder folder;
+    const Extent extent{.rank = 3, .size = {400, 300, 2}};
+    const std::string path = folder / "l.mrc";
+    for (const std::uint32_t largest : {1U, 255U, 256U, 65535U, 65536U, 16777215U, 16777216U}) {
+        const auto labels = labels_up_to(extent.voxels(), largest);
+        write_labels(path, info_of(extent), labels);
+        expect_labels(path, extent, labels, largest < 65536 ? ValueType::u16 : ValueType::f32);
+    }
+    expect_helpful(failure_of([&] { write_labels(path, info_of(extent), labels_up_to(extent.voxels(), 16777217)); }),
+                   ErrorKind::unsupported, "16777217");
+    EXPECT_EQ(load_volume(path).value(extent.voxels() - 1), 16777216);  // the file of before
+}
+
 TEST(Labels, WrongUse) {
     const TestFolder folder;
     const Extent extent{.rank = 3, .size = {4, 3, 2}};

@@ -19,7 +19,7 @@ namespace {
 
 using namespace test;
 
-const std::vector<std::string> kNames = {"s.seg.nrrd", "s.nrrd", "s.nii", "s.nii.gz", "s.tif"};
+const std::vector<std::string> kNames = {"s.seg.nrrd", "s.nrrd", "s.nii", "s.nii.gz", "s.tif", "s.mrc"};
 
 /// 6 x 5 x 4: object 2 in a corner, object 700 a line, object 3 nowhere.
 std::vector<std::uint32_t> labels() {
