@@ -11,6 +11,7 @@
 #include "mesh/count_cells.h"
 #include "mesh/extract_level.h"
 #include "mesh/hits.h"
+#include "mesh/keep_contours.h"
 #include "mesh/select_cells.h"
 #include "mesh/squares.h"
 
@@ -227,7 +228,7 @@ bool extract_level_if(const TrianglesWanted& is_wanted, const TauLevel& level, c
         *cells = selects ? count_cells(level, options.boundary, *components.all, components.contours, context)
                          : count_cells(level, options.boundary, context);
     }
-    if (selects) keep_contours(components.contours, surface);
+    if (selects) keep_contours(components.contours, context, surface);
     if (options.ids)
         write_ids(*components.all, context, surface);
     else

@@ -130,35 +130,6 @@ ChosenComponents choose_components(const TauLevel& level, const ExtractOptions& 
     return components;
 }
 
-void keep_contours(IdSpan<ContourNumber, const std::uint8_t> chosen, Surface& surface) {
-    std::vector<std::int64_t> place(surface.points.size(), -1);
-    std::int64_t kept = 0;
-    for (std::size_t i = 0; i < place.size(); ++i) {
-        if (!chosen[ContourNumber(surface.contour[i])]) continue;
-        place[i] = kept;
-        surface.points[kept] = surface.points[i];
-        surface.contour[kept] = surface.contour[i];
-        if (!surface.normals.empty()) surface.normals[kept] = surface.normals[i];
-        ++kept;
-    }
-    surface.points.resize(kept);
-    surface.contour.resize(kept);
-    if (!surface.normals.empty()) surface.normals.resize(kept);
-    const auto keep = [&place](auto& simplices) {  // all points of a simplex lie on one contour
-        std::size_t count = 0;
-        for (const auto& simplex : simplices) {
-            if (place[simplex[0]] == -1) continue;
-            auto& target = simplices[count++];
-            for (std::size_t i = 0; i < simplex.size(); ++i) target[i] = place[simplex[i]];
-        }
-        simplices.resize(count);
-    };
-    keep(surface.triangles);
-    keep(surface.segments);
-    surface.points.shrink_to_fit();
-    surface.triangles.shrink_to_fit();
-}
-
 void write_ids(const Components& components, const Context& context, Surface& surface) {
     resize_for_overwrite(surface.object, surface.contour.size());
     constexpr std::int64_t kBlock = 1 << 16;

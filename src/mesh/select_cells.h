@@ -31,9 +31,6 @@ struct ChosenComponents {
 };
 [[nodiscard]] ChosenComponents choose_components(const TauLevel& level, const ExtractOptions& options, const Context& context);
 
-/// Keeps the points of the chosen contours and what is between them. Surface::contour holds contour numbers.
-void keep_contours(IdSpan<ContourNumber, const std::uint8_t> chosen, Surface& surface);
-
 /// Replaces contour numbers by ids as in Cut: fills Surface::object and Surface::contour.
 void write_ids(const Components& components, const Context& context, Surface& surface);
 

@@ -13,6 +13,7 @@
 #include "isoatlas/error.h"
 #include "mesh/count_cells.h"
 #include "mesh/extract_level.h"
+#include "mesh/keep_contours.h"
 #include "mesh/select_cells.h"
 #include "octree_front/front_level.h"
 #include "octree_front/front_mesh.h"
@@ -208,7 +209,7 @@ FrontSurface extract_front_level(const TauLevel& level, const FrontOptions& opti
         *cells = components.contours.empty() ? count_cells(level, how.surface.boundary, context)
                                              : count_cells(level, how.surface.boundary, *components.all, components.contours, context);
     }
-    if (!components.contours.empty()) keep_contours(components.contours, surface);
+    if (!components.contours.empty()) keep_contours(components.contours, context, surface);
     require_triangles(static_cast<std::int64_t>(surface.triangles.size()), how.surface);
     if (how.surface.ids)
         write_ids(*components.all, context, surface);
