@@ -282,6 +282,26 @@ def test_truncated_pyramids(options, tmp_path):
     assert told > 0
 
 
+@pytest.mark.parametrize("options", [{}, {"compression": "zlib"}, {"tile": (16, 16)}, {"tile": (4, 16, 16)}, {"tile": (16, 16, 16)}], ids=str)
+def test_pages_of_several_slices(options, tmp_path):
+    array = samples("uint8", (7, 9, 11))
+    tifffile.imwrite(tmp_path / "v.tif", array, volumetric=True, photometric="minisblack", **options)
+    with tifffile.TiffFile(tmp_path / "v.tif") as file:
+        assert len(file.pages) == 1 and np.array_equal(file.asarray(), array)
+    with pytest.raises(isoatlas.errors.UnsupportedError, match="a page for each slice"):
+        isoatlas.open(tmp_path / "v.tif")
+    content = (tmp_path / "v.tif").read_bytes()
+    for tag in (32997, 32998):  # a tag that cannot be read is none that is not there
+        place = content.find(struct.pack("<HH", tag, 4))
+        if place < 0:
+            continue
+        damaged = bytearray(content)
+        struct.pack_into("<H", damaged, place + 2, 2)
+        (tmp_path / "v.tif").write_bytes(damaged)
+        with pytest.raises(isoatlas.Error):
+            isoatlas.open(tmp_path / "v.tif").volume
+
+
 def test_damaged_files(tmp_path):
     if not CLI:
         pytest.skip("ISOATLAS_CLI does not name the command line")

@@ -12,7 +12,7 @@
 namespace isoatlas {
 namespace {
 
-constexpr std::uint16_t kShort = 3, kStripOffsets = 273, kTileOffsets = 324;
+constexpr std::uint16_t kShort = 3, kLong = 4, kStripOffsets = 273, kTileOffsets = 324, kImageDepth = 32997, kTileDepth = 32998;
 
 std::uint64_t number(const std::byte* bytes, std::size_t size, bool big_endian) {
     std::uint64_t value = 0;
@@ -54,6 +54,8 @@ std::string doubtful_tag(const std::vector<TiffEntry>& entries, int samples) {
     for (const TiffEntry& e : entries) {
         if (e.type == 0 || e.type > kLastType) return "tag " + std::to_string(e.tag) + " has no known type";
         if (!seen.insert(e.tag).second) return "tag " + std::to_string(e.tag) + " appears twice";
+        const bool is_depth = e.tag == kImageDepth || e.tag == kTileDepth, is_number = e.type == kShort || e.type == kLong;
+        if (is_depth && (e.count != 1 || !is_number)) return "tag " + std::to_string(e.tag) + " is not one number of 16 or 32 bits";
     }
     for (const auto& [tag, name] : kDeciding) {
         const auto wanted = tag;

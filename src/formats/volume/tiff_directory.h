@@ -20,9 +20,9 @@ struct TiffEntry {
 [[nodiscard]] std::optional<std::vector<TiffEntry>> read_tiff_entries(File& file, const std::string& path, std::uint64_t offset,
                                                                       bool is_big_tiff, bool big_endian);
 
-/// Describes the error in a directory: invalid types, or one of the tags that decide samples and have a default (Compression,
-/// FillOrder, Predictor, SampleFormat) with another type, or missing where a tag of its form stands that differs in one bit. samples: of a
-/// pixel, each of which may have a SampleFormat. Empty: no error.
+/// Describes the error in a directory: invalid types; one of the tags that decide samples and have a default (Compression, FillOrder,
+/// Predictor, SampleFormat, ImageDepth, TileDepth) with another type; or one of the first four missing where a tag of its form stands that
+/// differs in one bit. samples: of a pixel, each of which may have a SampleFormat. Empty: no error.
 [[nodiscard]] std::string doubtful_tag(const std::vector<TiffEntry>& entries, int samples);
 
 /// Number of offsets of strips or tiles in the directory; 0: none.

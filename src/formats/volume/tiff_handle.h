@@ -44,6 +44,7 @@ struct TiffFile::Handle {
     [[nodiscard]] std::vector<TiffEntry> directory_entries() const;
     void check_entries(const std::vector<TiffEntry>& entries) const;
     [[nodiscard]] TiffPage describe_page() const;
+    void require_one_slice() const;
     [[nodiscard]] PixelKind pixel_kind(int compression) const;
     [[nodiscard]] ValueType sample_type() const;
     void check_page(const TiffPage& page) const;

@@ -62,6 +62,7 @@ TiffPage TiffFile::Handle::describe_page() const {
                     "save it with Deflate or LZW compression, or without compression");
     }
     page.type = sample_type();
+    require_one_slice();
     const bool tiled = TIFFIsTiled(tiff) != 0;
     page.piece_width = tiled ? tag<std::uint32_t>(TIFFTAG_TILEWIDTH, 0) : page.width;
     page.piece_height = tiled ? tag<std::uint32_t>(TIFFTAG_TILELENGTH, 0)
@@ -69,6 +70,14 @@ TiffPage TiffFile::Handle::describe_page() const {
     if (page.piece_width < 1 || page.piece_height < 1) corrupt(where, "its strips or tiles are not described");
     page.reduced_images = std::ssize(reduced_images());
     return page;
+}
+
+/// Silicon Graphics' tags for volumes; libtiff reads the tiles of such a page, but does not say that the others are there.
+void TiffFile::Handle::require_one_slice() const {
+    const auto slices = std::max(tag<std::uint32_t>(TIFFTAG_IMAGEDEPTH, 1), tag<std::uint32_t>(TIFFTAG_TILEDEPTH, 1));
+    if (slices <= 1) return;
+    unsupported("the page has pixels of " + std::to_string(slices) + " slices (ImageDepth, TileDepth)", "a page for each slice",
+                "save it as a stack of pages, e.g. tifffile.imwrite(..., volumetric=False)");
 }
 
 PixelKind TiffFile::Handle::pixel_kind(int compression) const {
