@@ -1,5 +1,6 @@
 #include "formats/common/vtk_array.h"
 
+#include <lz4.h>
 #include <zlib.h>
 
 #include <algorithm>
@@ -18,8 +19,6 @@
 namespace isoatlas {
 
 namespace {
-
-constexpr std::int64_t kDeflateRatio = 1032;  ///< deflate cannot do better: see open_inflate_source
 
 [[noreturn]] void bad_array(const VtkFile& file, const VtkArray& array, const std::string& what, const std::string& expected) {
     throw Error(ErrorKind::input, {.file = file.path,
@@ -79,6 +78,24 @@ private:
     std::int64_t offset_, length_;
     bool is_last_;
 };
+
+/// These fill out, or return why they cannot.
+std::string unpack_zlib(std::span<const std::byte> bytes, std::span<std::byte> out) {
+    uLongf size = out.size();
+    const int result =
+        ::uncompress(reinterpret_cast<Bytef*>(out.data()), &size, reinterpret_cast<const Bytef*>(bytes.data()), bytes.size());
+    if (result != Z_OK) return zError(result);
+    return size == out.size() ? "" : "it is too short";
+}
+
+std::string unpack_lz4(std::span<const std::byte> bytes, std::span<std::byte> out) {
+    constexpr std::size_t kMost = LZ4_MAX_INPUT_SIZE;
+    if (bytes.size() > kMost || out.size() > kMost) return "LZ4 has no blocks of this size";
+    const int size = ::LZ4_decompress_safe(reinterpret_cast<const char*>(bytes.data()), reinterpret_cast<char*>(out.data()),
+                                           static_cast<int>(bytes.size()), static_cast<int>(out.size()));
+    if (size < 0) return "it is no LZ4 block";
+    return static_cast<std::size_t>(size) == out.size() ? "" : "it is too short";
+}
 
 /// Positions of the blocks of a compressed array.
 struct BlockTable {
@@ -144,7 +161,7 @@ private:
             const std::int64_t compressed = read_word(*inner_, file_, array_);
             table_.begin.push_back(table_.begin.back() + compressed);
             const std::int64_t wanted = block + 1 == count ? table_.last_bytes : table_.block_bytes;
-            if (table_.begin.back() > bound || wanted / kDeflateRatio > compressed) {
+            if (table_.begin.back() > bound || wanted / largest_vtk_ratio(file_.compressor) > compressed) {
                 bad_array(file_, array_,
                           "block " + std::to_string(block) + " of " + std::to_string(wanted) + " bytes cannot be in " +
                               std::to_string(compressed) + " bytes",
@@ -153,8 +170,9 @@ private:
         }
         table_.data_begin = (count + 3) * word;
     }
-    /// Too large to be decompressed as a whole.
+    /// Too large to be decompressed as a whole, where the code allows less.
     [[nodiscard]] bool is_large(std::int64_t block) const {
+        if (file_.compressor != VtkCompressor::zlib) return false;
         constexpr std::int64_t kWhole = std::int64_t{1} << 20;
         const auto index = static_cast<std::size_t>(block);
         return table_.bytes_of(block) > kWhole || table_.begin[index + 1] - table_.begin[index] > kWhole;
@@ -189,12 +207,10 @@ private:
         loaded_ = streamed_ = -1;
         inner_->seek(table_.data_begin + table_.begin[index]);
         inner_->read(compressed_);
-        uLongf size = block_.size();
-        const int result = ::uncompress(reinterpret_cast<Bytef*>(block_.data()), &size, reinterpret_cast<const Bytef*>(compressed_.data()),
-                                        compressed_.size());
-        if (result != Z_OK || size != block_.size()) {
-            bad_array(file_, array_,
-                      "block " + std::to_string(block) + " is corrupt (" + (result == Z_OK ? "it is too short" : zError(result)) + ")",
+        const std::string problem =
+            file_.compressor == VtkCompressor::lz4 ? unpack_lz4(compressed_, block_) : unpack_zlib(compressed_, block_);
+        if (!problem.empty()) {
+            bad_array(file_, array_, "block " + std::to_string(block) + " is corrupt (" + problem + ")",
                       std::to_string(block_.size()) + " bytes");
         }
         loaded_ = block;
@@ -228,7 +244,7 @@ std::unique_ptr<ByteSource> open_encoded(const VtkFile& file, const VtkArray& ar
 /// The data of an array that is not ascii; length: bytes that its header says.
 std::unique_ptr<ByteSource> open_data(const VtkFile& file, const VtkArray& array, std::int64_t& length) {
     std::unique_ptr<ByteSource> source = open_encoded(file, array);
-    if (file.compressed) {
+    if (file.compressor != VtkCompressor::none) {
         source = std::make_unique<BlockSource>(file, array, std::move(source));
         length = source->size_bound();
         return source;
@@ -340,10 +356,20 @@ VtkValues read_vtk_values(const VtkFile& file, const VtkArray& array, std::int64
     return values;
 }
 
+std::int64_t largest_vtk_ratio(VtkCompressor compressor) {
+    switch (compressor) {
+        case VtkCompressor::zlib: return 1032;
+        case VtkCompressor::lz4: return 255;
+        case VtkCompressor::none: break;
+    }
+    return 1;
+}
+
 std::string vtk_encoding(const VtkFile& file, const VtkArray& array) {
     if (array.format == VtkFormat::ascii) return "ascii";
     const bool raw = array.format == VtkFormat::appended && file.appended_is_raw;
-    return std::string(raw ? "raw" : "base64") + (file.compressed ? " zlib" : "");
+    const char* compressor = file.compressor == VtkCompressor::zlib ? " zlib" : file.compressor == VtkCompressor::lz4 ? " LZ4" : "";
+    return std::string(raw ? "raw" : "base64") + compressor;
 }
 
 }  // namespace isoatlas

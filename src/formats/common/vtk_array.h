@@ -1,4 +1,4 @@
-// The data arrays of VTK XML files: ascii, base64, appended raw and appended base64, each with or without zlib blocks.
+// The data arrays of VTK XML files: ascii, base64, appended raw and appended base64, each with or without blocks of zlib or LZ4.
 // Source: "VTK File Formats" (Kitware), XML formats.
 #pragma once
 
@@ -18,13 +18,15 @@ namespace isoatlas {
 
 enum class VtkFormat : std::uint8_t { ascii, binary, appended };
 
+enum class VtkCompressor : std::uint8_t { none, zlib, lz4 };
+
 /// Properties of all arrays of a file.
 struct VtkFile {
     std::string path;                             ///< for messages
     std::function<std::unique_ptr<File>()> open;  ///< the file, or bytes in memory
     bool big_endian = false;
-    bool wide_headers = false;    ///< header_type UInt64 instead of UInt32
-    bool compressed = false;      ///< vtkZLibDataCompressor
+    bool wide_headers = false;  ///< header_type UInt64 instead of UInt32
+    VtkCompressor compressor = VtkCompressor::none;
     std::int64_t appended = -1;   ///< offset of the appended section; -1: none
     bool appended_is_raw = true;  ///< else base64
     bool skip_rest = false;       ///< an array may hold more samples than the extent
@@ -53,6 +55,9 @@ struct VtkValues {
 /// All values of an array. budget: how many values the arrays of the file may still have; bounds the memory. Throws Error: input, also for
 /// more values than that; unsupported (type).
 [[nodiscard]] VtkValues read_vtk_values(const VtkFile& file, const VtkArray& array, std::int64_t& budget);
+
+/// How many bytes one compressed byte can become at most. Source: the longest match of each code over its shortest symbol.
+[[nodiscard]] std::int64_t largest_vtk_ratio(VtkCompressor compressor);
 
 /// "ascii", "base64", "raw", "raw zlib", ...: for the user.
 [[nodiscard]] std::string vtk_encoding(const VtkFile& file, const VtkArray& array);

@@ -55,14 +55,16 @@ VtkFile describe_vtk_file(const VtkXml& xml, const std::string& path, std::funct
     }
     file.wide_headers = header == "UInt64";
     const std::string_view compressor = vtk_attribute(root, "compressor");
-    file.compressed = !compressor.empty();
-    if (file.compressed && compressor != "vtkZLibDataCompressor") {
-        throw Error(ErrorKind::unsupported,
-                    {.file = path,
-                     .where = "VTKFile compressor",
-                     .what = in_quotes(compressor),
-                     .expected = "vtkZLibDataCompressor or none",
-                     .next = "write it with zlib or without compression, in ParaView: Save Data > Compressor Type"});
+    if (compressor == "vtkZLibDataCompressor") {
+        file.compressor = VtkCompressor::zlib;
+    } else if (compressor == "vtkLZ4DataCompressor") {
+        file.compressor = VtkCompressor::lz4;
+    } else if (!compressor.empty()) {
+        throw Error(ErrorKind::unsupported, {.file = path,
+                                             .where = "VTKFile compressor",
+                                             .what = in_quotes(compressor),
+                                             .expected = "vtkZLibDataCompressor, vtkLZ4DataCompressor or none",
+                                             .next = "write it with zlib or LZ4, in ParaView: Save Data > Compressor Type"});
     }
     file.appended = xml.appended;
     const std::string_view encoding = vtk_attribute(root.child("AppendedData"), "encoding");

@@ -122,7 +122,7 @@ Mesh parse_vtp(std::string_view bytes, const std::string& file) {
         fail_vtp(file, "not a VTK file of PolyData");
     }
     VtkArrays arrays{describe_vtk_file(xml, file, open), 0};
-    arrays.budget = static_cast<std::int64_t>(bytes.size() * (arrays.file.compressed ? 1032 : 1));  // deflate cannot do better
+    arrays.budget = static_cast<std::int64_t>(bytes.size()) * largest_vtk_ratio(arrays.file.compressor);
     Mesh mesh;
     read_space(xml.root().child("PolyData").child("FieldData"), arrays, mesh);
     bool has_object = true, has_contour = true;

@@ -1,5 +1,6 @@
-// VTK XML: formats, byte orders, header types, zlib blocks, geometry, choice of arrays, damage.
+// VTK XML: formats, byte orders, header types, blocks of zlib and LZ4, geometry, choice of arrays, damage.
 #include <gtest/gtest.h>
+#include <lz4.h>
 
 #include <cstring>
 #include "unit/formats/volume/hostile_files.h"
@@ -14,10 +15,9 @@ using namespace test;
 struct Storage {
     std::string format = "appended";  ///< ascii, binary, appended
     bool raw = true;                  ///< appended: raw or base64
-    bool big = false, wide = false, packed = false;
-    std::string text() const {
-        return format + (raw ? " raw" : " base64") + (big ? " big" : "") + (wide ? " wide" : "") + (packed ? " zlib" : "");
-    }
+    bool big = false, wide = false;
+    std::string packed = "";  ///< ZLib, LZ4
+    std::string text() const { return format + (raw ? " raw " : " base64 ") + (big ? "big " : "") + (wide ? "wide " : "") + packed; }
 };
 
 const char* type_name(ValueType type) {
@@ -31,16 +31,23 @@ std::string word(std::uint64_t value, const Storage& s) {
     return bytes;
 }
 
+std::string lz4(const std::string& plain) {
+    const int size = static_cast<int>(plain.size());
+    std::string out(static_cast<std::size_t>(LZ4_compressBound(size)), '\0');
+    out.resize(static_cast<std::size_t>(LZ4_compress_default(plain.data(), out.data(), size, LZ4_compressBound(size))));
+    return out;
+}
+
 /// The array as it stands in the file: ascii, or header and data (blocks of 20 bytes when packed).
 std::string encode(const Storage& s, ValueType type, const std::string& samples) {
     const std::string data = s.big ? swapped(samples, size_of(type)) : samples;
     const bool coded = s.format == "binary" || !s.raw;
-    if (!s.packed) return coded ? base64(word(data.size(), s) + data) : word(data.size(), s) + data;
+    if (s.packed.empty()) return coded ? base64(word(data.size(), s) + data) : word(data.size(), s) + data;
     constexpr std::size_t kBlock = 20;
     const std::size_t count = (data.size() + kBlock - 1) / kBlock;
     std::string header = word(count, s) + word(kBlock, s) + word(data.size() % kBlock, s), blocks;
     for (std::size_t i = 0; i < count; ++i) {
-        const std::string block = zlib(data.substr(i * kBlock, kBlock));
+        const std::string plain = data.substr(i * kBlock, kBlock), block = s.packed == "LZ4" ? lz4(plain) : zlib(plain);
         header += word(block.size(), s);
         blocks += block;
     }
@@ -68,8 +75,9 @@ std::string file_around(const Storage& s, const std::string& grid, const std::st
     const std::string type = grid.substr(1, grid.find_first_of(" >") - 1);
     std::string text = "<?xml version=\"1.0\"?>\n<!-- a <DataArray> in a comment -->\n<VTKFile type=\"" + type +
                        "\" version=\"1.0\" byte_order=\"" + (s.big ? "BigEndian" : "LittleEndian") + "\" header_type=\"" +
-                       (s.wide ? "UInt64" : "UInt32") + "\"" + (s.packed ? " compressor=\"vtkZLibDataCompressor\"" : "") + ">\n " + grid +
-                       "\n" + piece + arrays + "</PointData></Piece></" + type + ">\n";
+                       (s.wide ? "UInt64" : "UInt32") + "\"" +
+                       (s.packed.empty() ? "" : " compressor=\"vtk" + s.packed + "DataCompressor\"") + ">\n " + grid + "\n" + piece +
+                       arrays + "</PointData></Piece></" + type + ">\n";
     if (!appended.empty())
         text += std::string(" <AppendedData encoding=\"") + (s.raw ? "raw" : "base64") + "\">\n  _" + appended + "\n </AppendedData>\n";
     return text + "</VTKFile>\n";
@@ -92,7 +100,7 @@ std::vector<Storage> all_storages() {
     for (const bool big : {false, true}) {
         storages.push_back({.format = "ascii", .big = big});
         for (const bool wide : {false, true}) {
-            for (const bool packed : {false, true}) {
+            for (const char* packed : {"", "ZLib", "LZ4"}) {
                 storages.push_back({.format = "binary", .raw = false, .big = big, .wide = wide, .packed = packed});
                 for (const bool raw : {false, true})
                     storages.push_back({.format = "appended", .raw = raw, .big = big, .wide = wide, .packed = packed});
@@ -274,8 +282,8 @@ TEST(Vti, WhatIsNotRead) {
     expect_helpful(failure("type=\"ImageData\"", "type=\"PImageData\"", good), ErrorKind::unsupported, "PImageData");
     expect_helpful(failure("\"UInt8\"", "\"Bit\"", good), ErrorKind::unsupported, "Bit");
     expect_helpful(failure("</Piece>", "</Piece><Piece Extent=\"0 1 0 1 0 1\"/>", good), ErrorKind::unsupported, "several pieces");
-    expect_helpful(failure("version=\"1.0\" ", "version=\"1.0\" compressor=\"vtkLZ4DataCompressor\" ", good), ErrorKind::unsupported,
-                   "LZ4");
+    expect_helpful(failure("version=\"1.0\" ", "version=\"1.0\" compressor=\"vtkLZMADataCompressor\" ", good), ErrorKind::unsupported,
+                   "LZMA");
     expect_helpful(failure("WholeExtent=\"0 3 0 2 0 1\"", "WholeExtent=\"0 3 0 2\"", good), ErrorKind::input, "WholeExtent");
     expect_helpful(failure("Piece Extent=\"0 3 0 2 0 1\"", "Piece Extent=\"0 999999999 0 999999999 0 1\"", good), ErrorKind::input,
                    "bytes");
@@ -296,8 +304,8 @@ TEST(Vti, WhatIsNotRead) {
 
 TEST(Vti, Damage) {
     const std::string samples = telling_bytes(48);
-    for (const Storage& s : {Storage{}, Storage{.packed = true}, Storage{.raw = false}, Storage{.format = "ascii"},
-                             Storage{.format = "binary", .raw = false, .wide = true, .packed = true}}) {
+    for (const Storage& s : {Storage{}, Storage{.packed = "ZLib"}, Storage{.packed = "LZ4"}, Storage{.raw = false},
+                             Storage{.format = "ascii"}, Storage{.format = "binary", .raw = false, .wide = true, .packed = "ZLib"}}) {
         SCOPED_TRACE(s.text());
         const std::string content = vti(s, ValueType::u16, samples);
         // The end tags behind appended data are not needed.
