@@ -8,7 +8,8 @@ Prints lines of the table in docs/performance.md: clients, steps, triangles, mil
 received; median, 95 % are faster, slowest, and the median of the slowest client), bytes a triangle on the wire, failures, and the memory of
 the server after a tenth of the steps and at the end, MB. Steps go up and down near the isovalue with about that many triangles, or over the
 whole axis without --triangles. --drag: of an object, between two isovalues, with at most --most triangles, as pages request them while an
-isovalue is dragged; 0 triangles are points. Each of several clients walks on its own, from another place; for SECONDS, instead of STEPS, if given.
+isovalue is dragged; 0 triangles are points. Each of several clients walks on its own, from another place; for SECONDS, instead of STEPS, if
+given.
 """
 import argparse
 import http.client
