@@ -74,6 +74,26 @@ def test_time_steps_and_missing_samples(format, tmp_path):
         assert (got[mask[step]] < got[~mask[step]].min()).all()
 
 
+@pytest.mark.parametrize("format", ["NETCDF3_64BIT_OFFSET", "NETCDF4"])
+@pytest.mark.parametrize("dtype", ["f4", "f8"])
+def test_missing_samples_anywhere_in_thousands(format, dtype, tmp_path):
+    rng = np.random.default_rng(5)
+    array = rng.random((9, 25, 37)).astype(dtype)
+    flat = array.reshape(-1)  # eight times 1024 samples and a rest
+    for place, value in ((0, 5e19), (1023, 1e20), (1024, 5e19), (3000, 1e20), (8191, 5e19), (8192, 1e20), (8324, 5e19)):
+        flat[place] = value
+    with netCDF4.Dataset(tmp_path / "v.nc", "w", format=format) as file:
+        for name, size in zip("zyx", array.shape):
+            file.createDimension(name, size)
+        variable = file.createVariable("v", dtype, tuple("zyx"), fill_value=1e20)
+        variable.missing_value = np.array([5e19], dtype)
+        variable.set_auto_maskandscale(False)
+        variable[:] = array
+    missing = (array == 5e19) | (array == np.array(1e20, dtype))
+    got = np.asarray(isoatlas.open(tmp_path / "v.nc", missing="below").volume)
+    assert missing.sum() == 7 and np.array_equal(got[~missing], array[~missing]) and (got[missing] < array[~missing].min()).all()
+
+
 def test_groups_and_names(tmp_path):
     array = np.arange(24, dtype="i4").reshape(2, 3, 4)
     with netCDF4.Dataset(tmp_path / "v.nc", "w") as file:

@@ -231,13 +231,24 @@ public:
     }
 
 private:
+    static constexpr std::size_t kBlock = 1024;
+
+    template <class T>
+    static bool holds(std::span<const T, kBlock> block, T value) {
+        int found = 0;  // no early exit and a known length, so that the loop is vectorised
+        for (const T sample : block) found |= sample == value ? 1 : 0;
+        return found != 0;
+    }
+    /// By blocks: few have missing samples, and all are looked at in the cache.
     template <class T>
     void blank_each(std::span<std::byte> bytes) const {
         const std::span<T> samples(reinterpret_cast<T*>(bytes.data()), bytes.size() / sizeof(T));
-        for (const double value : values_) {
-            const T missing = static_cast<T>(value);
-            for (T& sample : samples) {
-                if (sample == missing) sample = std::numeric_limits<T>::quiet_NaN();
+        for (std::size_t begin = 0; begin < samples.size(); begin += kBlock) {
+            const std::span<T> block = samples.subspan(begin, std::min(kBlock, samples.size() - begin));
+            for (const double value : values_) {
+                const T missing = static_cast<T>(value);
+                if (block.size() == kBlock && !holds<T>(block.template first<kBlock>(), missing)) continue;
+                std::ranges::replace(block, missing, std::numeric_limits<T>::quiet_NaN());
             }
         }
     }
