@@ -30,6 +30,9 @@ struct FrontOptions {
     /// The exact surface, too, where it has more than so many triangles, unless SurfaceOptions::max_triangles refuses it: a front would
     /// have too many as well, and takes longer; 0: never.
     std::int64_t exact_above = 0;
+    /// Where exact_above asks for the exact surface, about so many of its points on edges of the grid in place of it, which takes half the
+    /// time; 0: the surface.
+    std::int64_t points = 0;
 };
 
 struct FrontSurface {
@@ -38,6 +41,8 @@ struct FrontSurface {
     std::vector<std::int64_t> leaves;
     double deviation = std::numeric_limits<double>::infinity();  ///< as it was measured; infinity: it was not
     double pixels = std::numeric_limits<double>::infinity();     ///< as it is seen, at most; infinity: from nowhere
+    /// More than 0: `surface` has points and normals alone, without triangles and ids, and so much area, squared, for each. Physical.
+    double spacing = 0;
 };
 
 /// The surface at tau with the same contours, genus and nesting as that of extract(), and fewer triangles: in a block of cells where it is

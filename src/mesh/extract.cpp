@@ -40,19 +40,21 @@ public:
           flip_(is_mirrored(level.info())),
           cells_(grid_, level.tau, domain_, map_, how, flip_) {}
 
-    /// Returns whether it is wanted.
-    bool run(const TrianglesWanted& is_wanted, Surface& surface) {
+    /// Returns what is made.
+    ExtractionParts run(const PartsWanted& wanted, Surface& surface) {
         if (domain_.is_empty()) {
             for_arrays(surface, [](auto& array) { array.clear(); });
-            return is_wanted(0);
+            return wanted(0);
         }
         count();
-        if (!is_wanted(layout_.back().triangle)) return false;
+        const ExtractionParts parts = wanted(layout_.back().triangle);
+        if (parts == ExtractionParts::none) return parts;
         require_triangles(layout_.back().triangle, options_);
+        if (parts == ExtractionParts::hits) leave_hits();
         allocate(surface);
         write_hits(surface);
-        write_cells(surface);
-        return true;
+        if (parts == ExtractionParts::all) write_cells(surface);
+        return parts;
     }
 
 private:
@@ -120,6 +122,15 @@ private:
             cells_.count_row(y, z, place, found);
         }
         return place.x_hits + place.y_hits + place.z_hits + place.triangle > 0;
+    }
+
+    /// Offsets of hits alone, in place of those of PASS 2.
+    void leave_hits() {
+        std::int64_t point = 0;
+        for (RowOffsets& place : layout_) {
+            place.point = point, place.triangle = 0, place.articulation_points = 0;
+            point += std::int64_t{place.x_hits} + place.y_hits + place.z_hits;
+        }
     }
 
     /// Every entry will be written.
@@ -208,32 +219,33 @@ Surface extract_level(const TauLevel& level, const ExtractOptions& options, cons
 }
 
 void extract_level(const TauLevel& level, const ExtractOptions& how, const Context& context, Surface& surface, std::int64_t* cells) {
-    const auto always = [](std::int64_t) { return true; };
-    extract_level_if(always, level, how, choose_components(level, how, context), context, surface, cells);
+    const auto always = [](std::int64_t) { return ExtractionParts::all; };
+    extract_parts(always, level, how, choose_components(level, how, context), context, surface, cells);
 }
 
-bool extract_level_if(const TrianglesWanted& is_wanted, const TauLevel& level, const ExtractOptions& how,
-                      const ChosenComponents& components, const Context& context, Surface& surface, std::int64_t* cells) {
+ExtractionParts extract_parts(const PartsWanted& wanted, const TauLevel& level, const ExtractOptions& how,
+                              const ChosenComponents& components, const Context& context, Surface& surface, std::int64_t* cells) {
     const SurfaceOptions& options = how.surface;
     describe(surface, level.info(), level.tau, how.interpolant, how.tunnel_height);
     surface.closed = options.boundary == Boundary::closed;
 
-    bool is_made = false;
+    ExtractionParts made = ExtractionParts::none;
     visit_grid(level.volume, [&]<class T>(const SampleGrid<T>& grid) {
-        is_made = Extraction<T>(level, grid, how, context, components.get()).run(is_wanted, surface);
+        made = Extraction<T>(level, grid, how, context, components.get()).run(wanted, surface);
     });
-    if (!is_made) return false;
+    if (made == ExtractionParts::none) return made;
     const bool selects = !components.contours.empty();
     if (cells != nullptr) {
         *cells = selects ? count_cells(level, options.boundary, *components.all, components.contours, context)
                          : count_cells(level, options.boundary, context);
     }
+    if (made == ExtractionParts::hits) return made;
     if (selects) keep_contours(components.contours, context, surface);
     if (options.ids)
         write_ids(*components.all, context, surface);
     else
         surface.object.clear(), surface.contour.clear();
-    return true;
+    return made;
 }
 
 Surface extract(const Volume& volume, double tau, const ExtractOptions& options, const Context& context) {

@@ -2,6 +2,7 @@
 // In the literature: isosurface extraction (Lorensen, Cline, Marching Cubes, 1987).
 #pragma once
 
+#include <cstdint>
 #include <functional>
 
 #include "isoatlas/surface.h"
@@ -29,11 +30,14 @@ void describe(Surface& surface, const VolumeInfo& info, double tau, Interpolant 
 /// Into an existing surface, whose memory is used again. cells: receives the number of active cells, unless it is null.
 void extract_level(const TauLevel& level, const ExtractOptions& options, const Context& context, Surface& surface,
                    std::int64_t* cells = nullptr);
+/// What is made of a surface. hits: its points on edges of the grid alone.
+enum class ExtractionParts : std::uint8_t { none, hits, all };
 /// Asked when the triangles (segments) of all components are counted, before memory is taken for them.
-using TrianglesWanted = std::function<bool(std::int64_t triangles)>;
-/// The same where it is wanted, of choose_components(level, options, context) (mesh/select_cells.h). Returns whether it is.
-bool extract_level_if(const TrianglesWanted& is_wanted, const TauLevel& level, const ExtractOptions& options,
-                      const ChosenComponents& components, const Context& context, Surface& surface, std::int64_t* cells);
+using PartsWanted = std::function<ExtractionParts(std::int64_t triangles)>;
+/// The parts that are wanted, of choose_components(level, options, context) (mesh/select_cells.h). Returns which are made: hits are those
+/// of all components, with contour numbers where these are known (of Components), and there are no ids.
+ExtractionParts extract_parts(const PartsWanted& wanted, const TauLevel& level, const ExtractOptions& options,
+                              const ChosenComponents& components, const Context& context, Surface& surface, std::int64_t* cells);
 /// All active cells. Cost: O(voxels / 64).
 [[nodiscard]] std::int64_t count_cells(const TauLevel& level, Boundary boundary, const Context& context);
 

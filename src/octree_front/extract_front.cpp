@@ -15,6 +15,7 @@
 #include "mesh/extract_level.h"
 #include "mesh/keep_contours.h"
 #include "mesh/select_cells.h"
+#include "mesh/thin_points.h"
 #include "octree_front/front_level.h"
 #include "octree_front/front_mesh.h"
 #include "octree_front/front_phases.h"
@@ -145,21 +146,29 @@ std::unique_ptr<FrontLeaves> choose_leaves(const CoalescibleBlocks& blocks, cons
     return chosen;
 }
 
-/// The exact surface, where the options ask for it in place of a front. Returns whether they do.
+/// The exact surface, or points of it, where the options ask for it in place of a front. Returns whether they do.
 bool extract_instead(const TauLevel& level, const FrontOptions& options, const ExtractOptions& how, const ChosenComponents& components,
-                     const Context& context, Surface& surface, std::int64_t* cells) {
+                     const Context& context, FrontSurface& front, std::int64_t* cells) {
+    Surface& surface = front.surface;
     const auto has_few = [&](std::int64_t triangles) { return options.exact_triangles > 0 && triangles <= options.exact_triangles; };
     const std::int64_t most = how.surface.max_triangles;  // beyond it a front may be what is left
     const auto has_too_many = [&](std::int64_t triangles) {
         return options.exact_above > 0 && triangles > options.exact_above && (most == 0 || triangles <= most);
     };
     bool has_few_of_all = false;
-    const auto is_wanted = [&](std::int64_t triangles) {
+    const auto wanted = [&](std::int64_t triangles) {
         has_few_of_all = has_few(triangles);
-        return has_few_of_all || has_too_many(triangles);
+        if (has_few_of_all) return ExtractionParts::all;
+        return !has_too_many(triangles) ? ExtractionParts::none : options.points > 0 ? ExtractionParts::hits : ExtractionParts::all;
     };
-    if (!extract_level_if(is_wanted, level, how, components, context, surface, cells)) return false;
-    return has_few_of_all || has_too_many(std::ssize(surface.triangles));  // only some of the components may be chosen
+    const ExtractionParts made = extract_parts(wanted, level, how, components, context, surface, cells);
+    if (made == ExtractionParts::none) return false;
+    if (made == ExtractionParts::all) return has_few_of_all || has_too_many(std::ssize(surface.triangles));  // of the chosen components
+    constexpr std::int64_t kTrianglesOfPoint = 2;  // of a closed surface, by Euler's formula
+    const BigVector<float> areas = areas_of_hits(components.contours, level.info().geometry, context, surface);
+    if (!has_too_many(kTrianglesOfPoint * (std::ssize(areas) - std::ranges::count(areas, 0.0F)))) return false;
+    front.spacing = std::sqrt(thin_points(areas, options.points, context, surface));
+    return true;
 }
 
 }  // namespace
@@ -174,6 +183,8 @@ void require_front(const VolumeInfo& info, const FrontOptions& options, const Su
     require(surface.boundary == Boundary::closed, "a front that is open at the border of the volume", "a closed one");
     require(options.triangles >= 0, "the triangles of a front", "0 or more");
     require(options.exact_triangles >= 0 && options.exact_above >= 0, "the triangles of an exact surface", "0 or more");
+    require(options.points >= 0, "the points in place of a surface", "0 or more");
+    require(options.points == 0 || surface.normals, "points in place of a surface without normals", "normals");
     require(options.deviation > 0, "the deviation of a front", "more than 0 voxels");
     require(options.pixels > 0, "the pixels of a front", "more than 0");
     require(!options.from || std::isinf(options.deviation), "a front with a deviation that is seen from somewhere", "one of them");
@@ -185,8 +196,7 @@ FrontSurface extract_front_level(const TauLevel& level, const FrontOptions& opti
                                  std::int64_t* cells) {
     const ChosenComponents components = choose_components(level, how, context);
     FrontSurface front;
-    if ((options.exact_triangles > 0 || options.exact_above > 0) &&
-        extract_instead(level, options, how, components, context, front.surface, cells))
+    if ((options.exact_triangles > 0 || options.exact_above > 0) && extract_instead(level, options, how, components, context, front, cells))
         return front;
     front.surface = {};
     const CoalescibleBlocks blocks(level.high, std::max(options.max_level, 1), context);

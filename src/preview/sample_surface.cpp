@@ -1,13 +1,12 @@
 #include "preview/sample_surface.h"
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <vector>
 
 #include "base/big_vector.h"
 #include "base/parallel.h"
+#include "base/systematic_sample.h"
 #include "geometry/vectors.h"
 
 namespace isoatlas {
@@ -46,46 +45,22 @@ void set_point(const Surface& surface, const TriangleCorners& corners, std::int6
                         static_cast<float>(normal[2] / length)};
 }
 
-/// How many of the points, each in the middle of its part of the area, lie before this one.
-std::int64_t points_before(double area, double part, std::int64_t points) {
-    std::int64_t count = std::clamp(static_cast<std::int64_t>(area / part) - 1, std::int64_t{0}, points);
-    while (count < points && (static_cast<double>(count) + 0.5) * part < area) ++count;
-    return count;
-}
-
 }  // namespace
 
 SurfaceSample sample_surface(const Surface& surface, std::int64_t points, const Context& context) {
-    constexpr std::int64_t kTriangles = 4096;  // of a piece
-    const std::int64_t triangles = std::ssize(surface.triangles), pieces = (triangles + kTriangles - 1) / kTriangles;
+    const std::int64_t triangles = std::ssize(surface.triangles);
     BigVector<double> areas;
     resize_for_overwrite(areas, static_cast<std::size_t>(triangles));
-    std::vector<double> before(static_cast<std::size_t>(pieces) + 1);  // the area before each piece
-    const auto last_of = [&](std::int64_t piece) { return std::min((piece + 1) * kTriangles, triangles); };
-    for_each_block(context.threads, pieces, [&](std::int64_t piece) {
-        double area = 0;
-        for (std::int64_t t = piece * kTriangles; t < last_of(piece); ++t)
-            area += areas[t] = norm(normal_of(surface, surface.triangles[t])) / 2;
-        before[piece + 1] = area;
-    });
-    for (std::int64_t piece = 0; piece < pieces; ++piece) before[piece + 1] += before[piece];
+    for_each_index(context.threads, areas.size(), [&](std::size_t t) { areas[t] = norm(normal_of(surface, surface.triangles[t])) / 2; });
+    const SystematicSample chosen(triangles, context.threads, [&](std::int64_t t) { return areas[t]; });
 
     SurfaceSample sample;
-    if (!(before.back() > 0) || points <= 0) return sample;
-    const double part = before.back() / static_cast<double>(points);
+    if (!(chosen.total() > 0) || points <= 0) return sample;
+    const double part = chosen.total() / static_cast<double>(points);
     sample.spacing = std::sqrt(part);
-    const std::int64_t count = points_before(before.back(), part, points);
-    sample.cloud.points.resize(count);
-    sample.cloud.normals.resize(count);
-    for_each_block(context.threads, pieces, [&](std::int64_t piece) {
-        double area = 0;  // the same sums as above: a piece ends where the next one begins
-        std::int64_t next = points_before(before[piece], part, points);
-        for (std::int64_t t = piece * kTriangles; t < last_of(piece); ++t) {
-            area += areas[t];
-            for (; next < count && (static_cast<double>(next) + 0.5) * part < before[piece] + area; ++next)
-                set_point(surface, surface.triangles[t], next, sample.cloud);
-        }
-    });
+    sample.cloud.points.resize(chosen.count(part));
+    sample.cloud.normals.resize(chosen.count(part));
+    chosen.for_each(part, [&](std::int64_t t, std::int64_t k) { set_point(surface, surface.triangles[t], k, sample.cloud); });
     return sample;
 }
 

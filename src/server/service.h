@@ -37,6 +37,7 @@
 #include "isoatlas/context.h"
 #include "isoatlas/octree_front.h"
 #include "isoatlas/server.h"
+#include "preview/sample_surface.h"
 #include "preview/wire_mesh.h"
 #include "server/cards.h"
 #include "server/event_stream.h"
@@ -116,8 +117,8 @@ private:
     [[nodiscard]] Surface extract(const Atlas& atlas, double tau, SurfaceOptions options, const Context& context) const;
     [[nodiscard]] std::int64_t max_triangles() const;
     [[nodiscard]] WireMesh wire(const Surface& surface, const Context& context, bool strips = true) const;
-    /// Points of it that are drawn as soon as so many triangles, in place of a surface with another topology.
-    [[nodiscard]] WireMesh wire_sample(const Surface& surface, std::int64_t triangles, const Context& context) const;
+    /// In place of a surface with another topology.
+    [[nodiscard]] WireMesh wire_sample(const SurfaceSample& sample, const Context& context) const;
     /// Of positions, physical.
     [[nodiscard]] double step() const;
     [[nodiscard]] WireMesh wire_front(const FrontSurface& front, const Context& context) const;

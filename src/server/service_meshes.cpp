@@ -4,6 +4,7 @@
 #include <exception>
 #include <limits>
 #include <numbers>
+#include <utility>
 
 #include "atlas/overview.h"
 #include "base/workers.h"
@@ -11,7 +12,6 @@
 #include "isoatlas/cards.h"
 #include "isoatlas/isovalue.h"
 #include "isoatlas/polarity.h"
-#include "preview/sample_surface.h"
 #include "server/answers.h"
 #include "server/download.h"
 #include "server/fewer_triangles.h"
@@ -31,7 +31,7 @@ constexpr int kFrontLevel = 4;                 ///< blocks of a front are at mos
 constexpr double kStepsOfVoxel = 64;           ///< steps of positions per voxel
 constexpr double kStepsOfSpacing = 16;         ///< of points, which are drawn wider than they are apart
 constexpr std::int64_t kTimesOfFront = 16;     ///< a front seldom has fewer triangles than the exact surface by more than that
-constexpr std::int64_t kPointsOfTriangle = 2;  ///< a point takes less memory and bytes than a triangle, and more pixels
+constexpr std::int64_t kPointsOfTriangle = 2;  ///< they are drawn as soon: less memory and bytes, more pixels
 
 /// Which entry every page shows first: one that is more than background, if there is any (firstToShow() of web/src/shared/cards.ts).
 template <class Entry>
@@ -135,7 +135,7 @@ WireMesh Service::mesh_of(const Atlas& atlas, double tau, const SurfaceOptions& 
     const std::optional<SeenSurface> level = levels_.find(atlas, options, tau, wanted);
     if (!level) return unprepared(atlas, tau, options, wanted.triangles, context);
     if (std::ssize(level->simplified.surface.triangles) > wanted.triangles)
-        return wire_sample(level->simplified.surface, wanted.triangles, context);
+        return wire_sample(sample_surface(level->simplified.surface, kPointsOfTriangle * wanted.triangles, context), context);
     WireMesh mesh = wire(level->simplified.surface, context);
     mesh.coarse = level->simplified.distance > 0;
     mesh.distance = level->simplified.distance;
@@ -149,14 +149,20 @@ WireMesh Service::unprepared(const Atlas& atlas, double tau, const SurfaceOption
     const std::int64_t few = std::min(triangles, max_triangles());
     SurfaceOptions all = options;
     all.max_triangles = max_triangles();
-    const FrontOptions wanted{.max_level = kFrontLevel, .triangles = few, .exact_triangles = few, .exact_above = kTimesOfFront * few};
-    const FrontSurface front = atlas.extract_front(tau, wanted, all, context);
-    if (std::ssize(front.surface.triangles) > few) return wire_sample(front.surface, few, context);
+    const FrontOptions wanted{.max_level = kFrontLevel,
+                              .triangles = few,
+                              .exact_triangles = few,
+                              .exact_above = kTimesOfFront * few,
+                              .points = kPointsOfTriangle * few};
+    FrontSurface front = atlas.extract_front(tau, wanted, all, context);
+    if (front.spacing > 0)
+        return wire_sample({{std::move(front.surface.points), std::move(front.surface.normals)}, front.spacing}, context);
+    if (std::ssize(front.surface.triangles) > few)
+        return wire_sample(sample_surface(front.surface, kPointsOfTriangle * few, context), context);
     return front.leaves.empty() ? wire(front.surface, context) : wire_front(front, context);
 }
 
-WireMesh Service::wire_sample(const Surface& surface, std::int64_t triangles, const Context& context) const {
-    const SurfaceSample sample = sample_surface(surface, kPointsOfTriangle * triangles, context);
+WireMesh Service::wire_sample(const SurfaceSample& sample, const Context& context) const {
     WireMesh mesh = wire_points(sample.cloud, std::max(step(), sample.spacing / kStepsOfSpacing), context);
     mesh.coarse = true;
     mesh.spacing = sample.spacing;

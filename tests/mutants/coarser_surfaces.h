@@ -1,7 +1,9 @@
 // What the probe knows about surfaces with fewer triangles: the first promise that does not hold.
 #pragma once
 
+#include <cmath>
 #include <random>
+#include <set>
 #include <string>
 
 #include "isoatlas/cluster_hierarchy.h"
@@ -66,8 +68,28 @@ inline std::string broken_promise_of_long_rows(std::mt19937& random) {
     return same ? "" : "octree front: long rows have other Euler numbers";
 }
 
+/// In place of surfaces of many hits.
+inline std::string broken_promise_of_points() {
+    for (const oracle::Shape& shape : {oracle::kShapes[4], oracle::kShapes[5]}) {
+        const isoatlas::Volume volume = oracle::volume_of(shape);
+        const oracle::Surface exact = isoatlas::extract(volume, shape.tau);
+        const isoatlas::FrontSurface front = extract_front(volume, shape.tau, {.exact_above = 1, .points = 700});
+        const std::set<isoatlas::Vec3> points(front.surface.points.begin(), front.surface.points.end());
+        const auto found = std::ranges::count_if(exact.points, [&](const isoatlas::Vec3& point) { return points.contains(point); });
+        if (found < 699 || found != std::ssize(points)) return "points in place of a surface: they are others";
+    }
+    const isoatlas::Volume volume = oracle::volume_of(oracle::kShapes[5]);
+    const auto spacing = [&](double share) {
+        isoatlas::Volume scaled = volume;
+        for (double& step : scaled.info.geometry.spacing) step *= share;
+        return extract_front(scaled, oracle::kShapes[5].tau, {.exact_above = 1, .points = 700}).spacing;
+    };
+    return std::abs(spacing(2) - 2 * spacing(1)) < 1e-3 * spacing(2) ? "" : "points in place of a surface: their area is no area";
+}
+
 inline std::string broken_promise_of_coarser_surfaces() {
     std::mt19937 random(20261127);
+    if (const std::string found = broken_promise_of_points(); !found.empty()) return found;
     if (const std::string found = broken_promise_of_long_rows(random); !found.empty()) return found;
     for (const isoatlas::Index3 size : {isoatlas::Index3{9, 8, 7}, isoatlas::Index3{5, 12, 6}, isoatlas::Index3{24, 4, 4}}) {
         const std::string found = broken_promise_of(rough_volume(random, size), 3.5, random);

@@ -107,6 +107,11 @@ inline isoatlas::Volume volume_of(const Shape& shape) {
     return volume;
 }
 
+/// Of a point in voxels: does it lie on an edge of the grid?
+inline bool is_hit(const isoatlas::Vec3& p) {
+    return std::ranges::count_if(p, [](double x) { return x == std::round(x); }) >= 2;
+}
+
 /// The Euler number of each contour, by the ids of the points.
 inline std::map<std::int64_t, std::int64_t> euler_numbers(const Surface& surface) {
     std::map<std::int64_t, std::int64_t> numbers;

@@ -51,11 +51,6 @@ void fronts_have_the_contours_of_the_exact_surface() {
     if (options.max_level == 0) RC_ASSERT(front.surface.triangles.size() <= c.exact.triangles.size());
 }
 
-/// Of a point in voxels: does it lie on an edge of the grid?
-bool is_hit(const Vec3& p) {
-    return std::ranges::count_if(p, [](double x) { return x == std::round(x); }) >= 2;
-}
-
 void hits_stay_within_the_deviation() {
     CoarseCase c;
     c.volume.info.geometry = {};  // points are in voxels
