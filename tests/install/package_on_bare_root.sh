@@ -67,16 +67,17 @@ test -s /usr/share/fish/vendor_completions.d/isoatlas.fish
 set -m
 : >viewer
 isoatlas view demo.atlas --no-browser --json >viewer 2>viewer.errors &
+viewer=$!  # %1 is forgotten as soon as the shell has said that it is done, a number is not
 port=""
-while [[ -z $port ]] && kill -0 %1 2>/dev/null; do
+while [[ -z $port ]] && kill -0 $viewer 2>/dev/null; do
     sleep 0.1
     port=$(sed -nE "s/.*\"port\": ?([0-9]+).*/\1/p" viewer)
 done
 [[ -n $port ]] || { cat viewer viewer.errors && exit 1; }
 said isoatlas ask $port /api/atlas >answer
 grep -q isovalue answer
-kill -INT %1
-{ wait %1; } 2>/dev/null
+kill -INT $viewer
+wait $viewer
 ' 2>&1 || fail "the installed program does not do what it should; its last words are above"
 step "a page, a table, a surface, the viewer"
 
